@@ -173,7 +173,7 @@ impl Queue {
     }
 
     /// Waits for all that was submitted, then destroys all that was dropped so far: a device without a next frame
-    /// would keep it.
+    /// would keep it. A device that is lost executes nothing any more, so that this holds for it, too, before the error is told.
     ///
     /// # Safety
     /// Nothing that was dropped is used by commands that are recorded and not submitted yet.
@@ -181,13 +181,16 @@ impl Queue {
     /// # Errors
     /// Whatever the driver answers, such as a lost device.
     pub unsafe fn wait_idle(&self) -> Result<()> {
-        self.wait(self.submitted.load(Ordering::Acquire))?;
+        let waited = self.wait(self.submitted.load(Ordering::Acquire));
         let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
         // SAFETY: the lock synchronizes the queue.
-        unsafe { self.device.raw().queue_wait_idle(*queue) }.of_call("vkQueueWaitIdle", "queue")?;
-        // SAFETY: under the lock nothing was submitted since; the rest is this function's contract.
-        unsafe { self.device.epoch_done(self.device.end_epoch()) };
-        Ok(())
+        let idle = unsafe { self.device.raw().queue_wait_idle(*queue) };
+        if matches!(idle, Ok(()) | Err(vk::Result::ERROR_DEVICE_LOST)) {
+            // SAFETY: under the lock nothing was submitted since; the rest is this function's contract.
+            unsafe { self.device.epoch_done(self.device.end_epoch()) };
+        }
+        waited?;
+        idle.of_call("vkQueueWaitIdle", "queue")
     }
 
     /// Waits for all that was submitted so far; at once where that is done.

@@ -3,13 +3,17 @@
 
 mod drag;
 mod edits;
+mod faults;
 mod paged;
+mod random;
+mod rest;
 mod screen;
 mod soak;
 mod window;
 
 use std::time::Duration;
 
+use random::{KEYS, Random};
 use screen::Screen;
 use window::{Folder, View, render, surfel};
 
@@ -45,7 +49,7 @@ fn a_window_that_is_resized_200_times_shows_the_picture_of_its_last_size() {
     let (screen, folder) = (Screen::new(), Folder::new());
     let mut view = View::open(&screen, &folder, &[&["--size", "200x150"], &CAMERA[..]].concat());
     view.wait_for(&render(&folder, &[&["--size", "200x150"], &CAMERA[..]].concat()));
-    let mut random = window::Random(7);
+    let mut random = Random(7);
     for _ in 0..200 {
         let [width, height] = [1 + random.below(500), 1 + random.below(400)];
         view.resize([width, height]);
@@ -155,7 +159,7 @@ fn random_input_ends_in_a_window_that_goes_home() {
     let mut view = View::open(&screen, &folder, &words);
     let home = render(&folder, &words);
     view.wait_for(&home);
-    view.play_at_random(window::Random(3), Duration::from_secs(5));
+    view.play_at_random(&mut Random(3), Duration::from_secs(5), KEYS);
     assert!(view.is_running());
     view.end();
 }

@@ -5,8 +5,9 @@ use std::{thread, time::Duration};
 
 use super::{
     CAMERA,
+    random::{KEYS, KEYS_OF_VIEWS, Random},
     screen::Screen,
-    window::{Folder, Random, View},
+    window::{Folder, View},
 };
 
 /// The first size, all settings and the first camera again.
@@ -38,9 +39,13 @@ fn settled_mb(screen: &Screen, view: &mut View<'_>) -> f64 {
 /// Beside what comes and goes: blocks of device memory, and which of the pages that were freed the system has back by then.
 const MOST_GROWTH_MB: f64 = 20.0;
 
+fn secs() -> u64 {
+    std::env::var("SURFEL_SOAK_SECS").ok().and_then(|secs| secs.parse().ok()).unwrap_or(600)
+}
+
 /// Plays; by how many megabytes the process grew meanwhile, and the most milliseconds from an input until the frame was done that answers to it.
 fn played(is_validated: bool) -> (f64, f64) {
-    let secs = std::env::var("SURFEL_SOAK_SECS").ok().and_then(|secs| secs.parse().ok()).unwrap_or(600);
+    let secs = secs();
     let (screen, folder) = (Screen::new(), Folder::new());
     folder.splats("a.ply", 20_000);
     let words = [&["a.ply", "--size", "320x240", "--print-frames"], &CAMERA[..]].concat();
@@ -48,7 +53,7 @@ fn played(is_validated: bool) -> (f64, f64) {
     view.wait_until("something is shown", |shot| shot.colors() > 20);
     let warm: Vec<f64> = (0..3).map(|_| settled_mb(&screen, &mut view)).collect();
     println!("resident after each setting was seen once, twice, three times, MB: {warm:.1?}");
-    view.play_at_random(Random(11), Duration::from_secs(secs));
+    view.play_at_random(&mut Random(11), Duration::from_secs(secs), KEYS);
     let end: Vec<f64> = (0..2).map(|_| settled_mb(&screen, &mut view)).collect();
     println!("after {secs} s of random input: {end:.1?}");
     let said = view.end();
@@ -68,6 +73,31 @@ fn played(is_validated: bool) -> (f64, f64) {
     );
     println!("growth: {:.1} MB", end[1] - warm[2]);
     (end[1] - warm[2], longest)
+}
+
+/// Where no pipelines are made any more, what else might grow is seen.
+#[test]
+#[ignore = "fourteen minutes"]
+fn ten_minutes_of_random_views_leave_no_more_memory() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 20_000);
+    let words = [&["a.ply", "--size", "320x240"], &CAMERA[..]].concat();
+    let mut view = View::open_as(&screen, &folder, &words, false);
+    view.wait_until("something is shown", |shot| shot.colors() > 20);
+    let mut random = Random(5);
+    let mut minute = |view: &mut View<'_>| {
+        view.play_at_random(&mut random, Duration::from_secs(60), KEYS_OF_VIEWS);
+        go_back(&screen, view);
+        view.resident_mb()
+    };
+    let all: Vec<f64> = (0..4 + secs() / 60).map(|_| minute(&mut view)).collect();
+    println!("resident after each minute, MB: {all:.1?}");
+    view.end();
+    // The most of some minutes: what comes and goes is there in some of them.
+    let most = |minutes: &[f64]| minutes.iter().copied().fold(0.0, f64::max);
+    let growth_mb = most(&all[all.len() - 3..]) - most(&all[..4]);
+    println!("growth: {growth_mb:.1} MB");
+    assert!(growth_mb < MOST_GROWTH_MB, "{growth_mb}");
 }
 
 /// Layers of 1.3.239 take memory for each presentation and each query that is reset, which they keep: so without them.

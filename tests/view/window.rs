@@ -9,7 +9,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::screen::{Screen, Shot};
+use super::{
+    random::Random,
+    screen::{Screen, Shot},
+};
 
 /// Patience with a machine that does other things, too.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -28,6 +31,14 @@ impl Folder {
 
     pub fn write(&self, name: &str, content: &str) {
         fs::write(self.path(name), content).unwrap();
+    }
+
+    /// A cube of triangles.
+    pub fn cube(&self, name: &str) {
+        let corner = |i: u32| [0, 1, 2].map(|axis| 2 * (i >> axis & 1)).map(|at| f64::from(at) - 1.0);
+        let corners = (0..8).map(corner).map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+        let faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];
+        self.write(name, &corners.chain(faces.map(|face| format!("f {face}\n"))).collect::<String>());
     }
 
     /// So many disks in colors on a ball, replaced at once.
@@ -108,10 +119,22 @@ impl<'a> View<'a> {
 
     /// The same, with the validation layer or without.
     pub fn open_as(screen: &'a Screen, folder: &'a Folder, words: &[&str], is_validated: bool) -> Self {
+        Self::open_in(screen, folder, words, is_validated, &[])
+    }
+
+    /// The same, with variables of its own.
+    pub fn open_in(
+        screen: &'a Screen,
+        folder: &'a Folder,
+        words: &[&str],
+        is_validated: bool,
+        environment: &[(&str, &str)],
+    ) -> Self {
         let first: &[&str] = if is_validated { &["view", "--validate"] } else { &["view"] };
         let mut child = command(folder, &[first, words].concat())
             .env("DISPLAY", screen.name())
             .env_remove("WAYLAND_DISPLAY")
+            .envs(environment.iter().copied())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -212,18 +235,16 @@ impl<'a> View<'a> {
         line.trim().trim_end_matches(" kB").parse::<f64>().unwrap() * 1024e-6
     }
 
-    /// Mouse and keys at random, all but those that end it.
-    pub fn play_at_random(&mut self, mut random: Random, long: Duration) {
-        const KEYS: &str = "h f 1 2 3 4 5 6 7 u p t r R g G k n b v V l L bracketright bracketleft m period comma x z space y o question \
-                            Escape F5 w a s d q e j X B equal minus O 0";
-        let keys: Vec<_> = KEYS.split_whitespace().collect();
+    /// Mouse and keys at random.
+    pub fn play_at_random(&mut self, random: &mut Random, long: Duration, keys: &str) {
+        let keys: Vec<_> = keys.split_whitespace().collect();
         let begun = Instant::now();
         while begun.elapsed() < long {
             let at = |random: &mut Random| [random.below(320) as i32, random.below(220) as i32];
             match random.below(6) {
                 0 | 1 => self.screen.key(keys[random.below(keys.len() as u32) as usize]),
                 2 => {
-                    let (from, to) = (at(&mut random), at(&mut random));
+                    let (from, to) = (at(random), at(random));
                     self.screen.drag(from, to, 1 + random.below(3));
                 }
                 3 => drop(self.screen.drive(&["click", if random.below(2) == 0 { "4" } else { "5" }])),
@@ -235,9 +256,19 @@ impl<'a> View<'a> {
     }
 
     /// Ends it by key: it has ended well, and the layer has said nothing.
-    pub fn end(mut self) -> Run {
+    pub fn end(self) -> Run {
         self.screen.drive(&["windowfocus", &self.window]);
         self.screen.key("ctrl+q");
+        let is_validated = self.is_validated;
+        let run = self.wait_for_end();
+        let Run { code, stderr, .. } = &run;
+        assert_eq!(*code, 0, "{stderr}");
+        assert!(!is_validated || stderr.contains("validation: no message"), "{stderr}");
+        run
+    }
+
+    /// Waits until it has ended by itself.
+    pub fn wait_for_end(mut self) -> Run {
         let begun = Instant::now();
         while self.is_running() {
             assert!(begun.elapsed() < PATIENCE, "it does not end");
@@ -246,9 +277,12 @@ impl<'a> View<'a> {
         let code = self.child.wait().unwrap().code().unwrap_or(-1);
         self.readers.drain(..).for_each(|reader| reader.join().unwrap());
         let (stdout, stderr) = (self.stdout.lock().unwrap().clone(), self.stderr.lock().unwrap().clone());
-        assert_eq!(code, 0, "{stderr}");
-        assert!(!self.is_validated || stderr.contains("validation: no message"), "{stderr}");
         Run { code, stdout, stderr }
+    }
+
+    /// What it has said on the standard error.
+    pub fn said(&self) -> String {
+        self.stderr.lock().unwrap().clone()
     }
 }
 
@@ -267,16 +301,4 @@ fn collect(mut from: impl std::io::Read + Send + 'static, into: &Arc<Mutex<Strin
             into.lock().unwrap().push_str(&String::from_utf8_lossy(&bytes[..count]));
         }
     })
-}
-
-/// Numbers at random, the same in every run.
-pub struct Random(pub u64);
-
-impl Random {
-    /// Below `end`.
-    pub fn below(&mut self, end: u32) -> u32 {
-        // Knuth's MMIX.
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) % u64::from(end)) as u32
-    }
 }

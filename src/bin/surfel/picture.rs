@@ -98,16 +98,13 @@ impl PictureArguments {
         self.settings.said_over(scene_file.over(self.settings()))
     }
 
-    /// The settings for a scene that was loaded. Where nobody says how many samples pixels have, those of a scene with polygons have several:
-    /// triangles cover a pixel or do not, and their outlines are stairs in one. Not where they can't be taken, nor where a dump shows one.
+    /// The settings for a scene that was loaded, with [`samples_unsaid`] unless the command line says how many; a dump shows one.
     pub fn settings_of(&self, loaded: &Loaded, renderer: &Renderer) -> Settings {
         let settings = self.settings_in(&loaded.picture);
-        let is_stairs = !loaded.scene.meshes.is_empty() && settings.edges == Edges::Coverage;
-        if !is_stairs || self.settings.says("samples") || self.dump.is_some() {
+        if self.settings.says("samples") || self.dump.is_some() {
             return settings;
         }
-        let several = Settings { samples: SAMPLES_OF_POLYGONS, ..settings.clone() };
-        if renderer.check_settings(&several).is_ok() { several } else { settings }
+        Settings { samples: samples_unsaid(&settings, &loaded.scene, renderer), ..settings }
     }
 
     /// What is drawn, of a picture with those settings: the whole of it, or a part.
@@ -122,6 +119,15 @@ impl PictureArguments {
         let settings = Settings { size_px: drawn_px, ..settings };
         Ok(Drawn { whole_px, crop: self.crop, settings })
     }
+}
+
+/// How many samples pixels of a scene have where the command line does not say it. With polygons they are several: triangles cover a pixel or
+/// do not, and their outlines are stairs in one. Not where they can't be taken.
+pub fn samples_unsaid(settings: &Settings, scene: &Scene, renderer: &Renderer) -> Samples {
+    let is_stairs = !scene.meshes.is_empty() && settings.edges == Edges::Coverage;
+    let several = Settings { samples: SAMPLES_OF_POLYGONS, ..settings.clone() };
+    let can = is_stairs && renderer.check_settings(&several).is_ok();
+    if can { SAMPLES_OF_POLYGONS } else { settings.samples }
 }
 
 /// What is drawn of a picture.

@@ -95,8 +95,8 @@ impl Viewer {
         let size_px = self.options.picture_size.unwrap_or(self.window_px());
         let background = self.settings.background;
         let is_plain = self.encoding.is_plain();
-        let settings = Settings { size_px, samples: self.options.samples, ..self.settings.clone() };
-        let settings = self.at_rest(&settings);
+        let settings = self.at_rest(&Settings { size_px, ..self.settings.clone() });
+        let settings = Settings { samples: self.samples_of(&settings), ..settings };
         let (Some(camera), Some(prepared)) = (self.camera(), &mut self.prepared) else { return Ok(false) };
         let settings = match prepared {
             OnDevice::Whole(..) => settings,

@@ -21,6 +21,22 @@ pub struct SceneView<'a> {
     pub settings: &'a Settings,
     /// The picture is light, not colors.
     pub is_light: bool,
+    /// It is one of several samples of a picture.
+    pub sample: Option<Ends>,
+}
+
+/// Whether a sample is the first of a picture, and whether the last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ends {
+    pub first: bool,
+    pub last: bool,
+}
+
+impl SceneView<'_> {
+    /// The picture is another one after this frame.
+    pub fn shows(&self) -> bool {
+        self.sample.is_none_or(|ends| ends.last)
+    }
 }
 
 /// A frame to draw.
@@ -33,6 +49,8 @@ pub struct FrameDesc<'a> {
     pub overlay: Option<&'a OverlayFrame>,
     /// What is measured of the scene's passes.
     pub profile: Option<Profile>,
+    /// What it is to the picture, in a word.
+    pub what: &'static str,
     /// The input that it answers to.
     pub input: Option<Instant>,
 }

@@ -1,6 +1,7 @@
 //! A window's device: what draws a scene to a picture, and pictures to the window, a few frames in flight.
 
 mod between;
+mod images;
 
 use std::{
     sync::Arc,
@@ -15,6 +16,7 @@ use surfel::{
 };
 
 use super::{
+    device::is_device_lost,
     frame::{Frame, begin_rendering, end_rendering},
     frame_desc::{Drawn, FrameDesc},
     memory,
@@ -89,44 +91,6 @@ impl Gpu {
         })
     }
 
-    /// The size of its images, as far as is known.
-    pub fn window_px(&self) -> [u32; 2] {
-        self.window_px
-    }
-
-    /// The window has this size now.
-    pub fn resize(&mut self, window_px: [u32; 2]) {
-        if self.window_px != window_px {
-            (self.window_px, self.fits) = (window_px, false);
-        }
-    }
-
-    /// Whether the window has images to draw to, made anew where it has changed.
-    ///
-    /// # Errors
-    /// Whatever the driver answers, such as a lost device.
-    pub fn make_images(&mut self) -> Result<bool> {
-        if self.fits && self.swapchain.is_some() {
-            return Ok(true);
-        }
-        // SAFETY: nothing is being recorded now.
-        unsafe { self.headless.queue().wait_idle() }?;
-        let device = self.headless.device();
-        let old = self.swapchain.take();
-        self.swapchain = Swapchain::new(device, &self.surface, self.window_px, old)?;
-        let Some(swapchain) = &self.swapchain else { return Ok(false) };
-        let vk::Extent2D { width, height } = swapchain.extent();
-        (self.window_px, self.fits) = ([width, height], true);
-        let format = swapchain.format();
-        if self.drawing.as_ref().is_none_or(|drawing| drawing.format != format) {
-            let show = Show::new(device, format)?;
-            let before = self.drawing.take().map(|drawing| drawing.overlay);
-            let overlay = OverlayPass::new(device, &self.cache, format, before)?;
-            self.drawing = Some(Drawing { format, show, overlay });
-        }
-        Ok(true)
-    }
-
     /// Draws a frame and shows it.
     ///
     /// # Errors
@@ -157,7 +121,7 @@ impl Gpu {
             Err(error) => {
                 // What was recorded is never submitted.
                 desc.views.iter().for_each(|(which, _)| self.pictures[which.index()].forget());
-                if self.is_acquired {
+                if self.is_acquired && !is_device_lost(&error) {
                     self.show_nothing(index)?;
                 }
                 Err(error)
@@ -183,7 +147,8 @@ impl Gpu {
         for (which, view) in desc.views {
             let slot = &mut self.pictures[which.index()];
             let target = slot.target(self.headless.device(), view)?;
-            let readbacks = Readbacks::default();
+            let sample = slot.sum(self.headless.device(), view)?;
+            let readbacks = Readbacks { sample, ..Readbacks::default() };
             // SAFETY: recording; the slot's frame before was waited for; scene, target and renderer live until the queue is idle, for all
             // that is dropped waits for its epoch.
             let recorded = unsafe {
@@ -199,7 +164,7 @@ impl Gpu {
                 )
             };
             recorded?;
-            slot.recorded();
+            slot.recorded(view);
         }
         // SAFETY: recording; the frame's submission before was waited for, so its pool and buffers are free; pictures are in the layout
         // that fragments sample them in once they were drawn.
@@ -223,7 +188,8 @@ impl Gpu {
         let epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, &image.drawn) }?;
         (frame.epoch, self.is_acquired) = (epoch, false);
         for (which, view) in desc.views {
-            let begun = Begun { at: begun, input: desc.input, size_px: view.settings.size_px };
+            let what = if *which == Use::Other { "other" } else { desc.what };
+            let begun = Begun { at: begun, input: desc.input, what, size_px: view.settings.size_px };
             self.pictures[which.index()].submitted(epoch, begun);
         }
         self.number = (self.number + 1) % IN_FLIGHT;
@@ -266,17 +232,5 @@ impl Gpu {
         (self.is_acquired, self.fits) = (false, false);
         // SAFETY: acquired and submitted above; what it comes to shows at the next frame.
         unsafe { queue.present(swapchain, index) }.map(drop)
-    }
-
-    /// The window wants other images; and another surface, where that is lost.
-    fn again(&mut self, is_lost: bool) -> Result<Drawn> {
-        self.fits = false;
-        if is_lost {
-            self.swapchain = None;
-            // SAFETY: nothing is being recorded now.
-            unsafe { self.headless.queue().wait_idle() }?;
-            self.surface = Surface::new(self.headless.device().instance(), Arc::clone(&self.window))?;
-        }
-        Ok(Drawn::Again)
     }
 }

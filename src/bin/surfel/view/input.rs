@@ -131,7 +131,10 @@ impl Viewer {
             return Ok(());
         }
         if !pressed {
-            self.input.dragged = None;
+            if self.input.dragged.take().is_some() && self.moved.take().is_some() {
+                // The hand is off: what it moved rests.
+                self.window.request_redraw();
+            }
             return Ok(());
         }
         let split_px = self.split * self.window_px()[0] as f32;

@@ -1,6 +1,6 @@
 //! What the command line says, for later.
 
-use surfel::scene::{Samples, Settings};
+use surfel::scene::Settings;
 
 use super::ViewArguments;
 use crate::{device::DeviceArguments, settings::Given};
@@ -13,21 +13,22 @@ pub struct Options {
     pub device: DeviceArguments,
     pub said: Box<dyn Fn(Settings) -> Settings>,
     pub picture_size: Option<[u32; 2]>,
-    pub samples: Samples,
+    /// It says how many samples a pixel has.
+    pub says_samples: bool,
     pub prints_frames: bool,
     /// Of device memory, for pages of a file.
     pub most_paged_bytes: u64,
 }
 
 impl Options {
-    /// Those of a command line; `samples`: those of pictures that go to files.
-    pub fn of(arguments: &ViewArguments, samples: Samples) -> Self {
+    /// Those of a command line.
+    pub fn of(arguments: &ViewArguments) -> Self {
         let said: Given<Settings> = arguments.settings.clone();
         Self {
             device: arguments.device.clone(),
             said: Box::new(move |settings| said.said_over(settings)),
             picture_size: arguments.picture_size,
-            samples,
+            says_samples: arguments.settings.says("samples"),
             prints_frames: arguments.print_frames,
             most_paged_bytes: arguments.budget_memory.unwrap_or(MOST_PAGED_BYTES),
         }

@@ -110,6 +110,7 @@ impl Viewer {
             Ok(path) => {
                 self.path = path;
                 self.ui.tell(&format!("a path of {} places; / plays it", self.path.places.len()));
+                self.window.request_redraw();
             }
             Err(error) => self.tell(&error.to_string()),
         }

@@ -7,10 +7,14 @@ use surfel::{
     Result,
     frame::{FrameSlot, Target},
     graph::{ImageState, execute::FrameProfile},
+    renderer::SampleSum,
     vk::{Device, Image, ImageDesc},
 };
 
-use super::{frame_desc::SceneView, show::Shot};
+use super::{
+    frame_desc::{Ends, SceneView},
+    show::Shot,
+};
 
 /// What pictures are for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +43,8 @@ pub struct Picture {
     next: usize,
     image: Option<Image>,
     is_drawn: bool,
+    /// The sum of samples, until the last one is drawn.
+    sum: Option<Image>,
     costs: Vec<Cost>,
 }
 
@@ -50,6 +56,8 @@ pub struct Cost {
     pub profile: FrameProfile,
     /// Width and height.
     pub size_px: [u32; 2],
+    /// What it was to the picture.
+    pub what: &'static str,
     /// From the input that it answers to when its end was seen.
     pub since_input: Option<Duration>,
 }
@@ -68,6 +76,8 @@ pub struct Begun {
     pub at: Instant,
     /// The input that it answers to.
     pub input: Option<Instant>,
+    /// What it is to the picture.
+    pub what: &'static str,
     /// Width and height.
     pub size_px: [u32; 2],
 }
@@ -76,7 +86,7 @@ impl Picture {
     /// Not drawn yet.
     pub fn new(device: &Device) -> Self {
         let slots = [(); 2].map(|()| Slot { slot: FrameSlot::new(device), epoch: 0, begun: None });
-        Self { slots, next: 0, image: None, is_drawn: false, costs: Vec::new() }
+        Self { slots, next: 0, image: None, is_drawn: false, sum: None, costs: Vec::new() }
     }
 
     /// The submission that must be done before the next one is recorded.
@@ -98,13 +108,11 @@ impl Picture {
         let extent = vk::Extent2D { width, height };
         let format = if view.is_light { vk::Format::R16G16B16A16_SFLOAT } else { vk::Format::R8G8B8A8_SRGB };
         let kept = self.image.take().filter(|image| (image.extent(), image.format()) == (extent, format));
-        self.is_drawn = false;
+        // Of several samples, the last one draws to it.
+        self.is_drawn &= kept.is_some() && !view.shows();
         let image = match kept {
             Some(image) => image,
-            None => {
-                let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
-                Image::new(device, ImageDesc { name: "picture", format, extent, usage })?
-            }
+            None => image_of(device, "picture", format, extent)?,
         };
         let sampled = ImageState {
             stages: vk::PipelineStageFlags2::FRAGMENT_SHADER,
@@ -124,14 +132,35 @@ impl Picture {
         Ok(target)
     }
 
-    /// Its frame is recorded: commands behind it may sample the image.
-    pub fn recorded(&mut self) {
-        self.is_drawn = true;
+    /// Where samples are added up, for a view that is one of them.
+    ///
+    /// # Errors
+    /// Whatever the driver or the allocator answers.
+    pub fn sum(&mut self, device: &Device, view: &SceneView<'_>) -> Result<Option<SampleSum>> {
+        let Some(Ends { first, last }) = view.sample else { return Ok(None) };
+        let [width, height] = view.settings.size_px;
+        let extent = vk::Extent2D { width, height };
+        let kept = self.sum.take().filter(|image| image.extent() == extent);
+        let image = match kept {
+            Some(image) => image,
+            None => image_of(device, "sum of samples", vk::Format::R32G32B32A32_SFLOAT, extent)?,
+        };
+        let sum = SampleSum { image: image.raw(), view: image.view(), first, last };
+        self.sum = Some(image);
+        Ok(Some(sum))
+    }
+
+    /// Its frame is recorded: commands behind it may sample the image, if it is drawn.
+    pub fn recorded(&mut self, view: &SceneView<'_>) {
+        if view.shows() {
+            // What is dropped waits for the frame.
+            (self.is_drawn, self.sum) = (true, None);
+        }
     }
 
     /// What was recorded does not come.
     pub fn forget(&mut self) {
-        self.is_drawn = false;
+        (self.is_drawn, self.sum) = (false, None);
     }
 
     /// Its frame is submitted.
@@ -166,7 +195,7 @@ impl Picture {
             let profile = profile.unwrap_or_default();
             let secs = profile.span_secs.unwrap_or_else(|| begun.at.elapsed().as_secs_f64());
             let since_input = begun.input.map(|input| input.elapsed());
-            self.costs.push(Cost { secs, profile, size_px: begun.size_px, since_input });
+            self.costs.push(Cost { secs, profile, size_px: begun.size_px, what: begun.what, since_input });
         }
         Ok(all)
     }
@@ -180,4 +209,9 @@ impl Picture {
     pub fn transient_bytes(&self) -> u64 {
         self.slots.iter().map(|slot| slot.slot.transient_bytes()).sum()
     }
+}
+
+fn image_of(device: &Device, name: &str, format: vk::Format, extent: vk::Extent2D) -> Result<Image> {
+    let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+    Image::new(device, ImageDesc { name, format, extent, usage })
 }

@@ -17,6 +17,7 @@ use super::{
     on_device::{OnDevice, Paged},
     overlay::OverlayFrame,
     picture::{Cost, Use},
+    refine::Refinement,
     show::{ShowDesc, Shown},
     viewer::Viewer,
 };
@@ -35,7 +36,8 @@ impl Viewer {
     /// When there is something to do without an event.
     pub fn next_wake(&mut self, now: Instant) -> Option<Instant> {
         let rest = self.moved.map(|moved| moved + REST);
-        let looks = [self.looks_for_costs, self.looks_for_pages, self.tidies];
+        let refines = self.refines.filter(|_| self.moved.is_none());
+        let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies];
         let all = [rest, self.files.next_look(), self.ui.next_wake()].into_iter().chain(looks);
         all.flatten().min().map(|when| when.max(now))
     }
@@ -58,7 +60,10 @@ impl Viewer {
         if is_due(self.looks_for_pages) {
             self.looks_for_pages = Some(now + PAGES);
         }
-        if rests || is_due(self.ui.next_wake()) || is_due(self.looks_for_costs) || pages_are_there {
+        // As above.
+        let refines = self.moved.is_none() && self.can_refine().unwrap_or(false);
+        if rests || refines || is_due(self.ui.next_wake()) || is_due(self.looks_for_costs) || pages_are_there
+        {
             self.window.request_redraw();
         }
     }
@@ -94,8 +99,6 @@ impl Viewer {
             Drawn::Shown => {
                 if let (Some(which), Some(camera)) = (which, self.camera()) {
                     (self.is_stale, self.shown) = (false, which);
-                    // What comes after the whole picture answers to something else.
-                    self.input_at.take_if(|_| which == Use::Still && !is_moving);
                     self.drawn = Some((self.settings.clone(), camera));
                     self.looks_for_costs = self.shows_costs().then(|| Instant::now() + COST);
                 }
@@ -111,11 +114,30 @@ impl Viewer {
     fn draw(&mut self, is_moving: bool, overlay: Option<&OverlayFrame>) -> Result<(Drawn, Option<Use>)> {
         let window_px = self.window_px();
         let whole = self.at_rest(&Settings { size_px: window_px, ..self.settings.clone() });
-        let (which, settings) = match is_moving && !self.pace.is_finest() {
-            true => (Use::Moving, self.coarse(&whole)),
-            false => (Use::Still, whole.clone()),
+        let is_coarse = self.shown == Use::Moving && !is_moving;
+        if self.is_stale || is_coarse {
+            (self.refined, self.refines) = (0, None);
+        }
+        let refinement = self.next_refinement(&whole);
+        let camera = self.camera();
+        let (which, camera, settings, sample) = match (camera, refinement) {
+            (Some(camera), _) if is_moving && !self.pace.is_finest() => {
+                (Use::Moving, Some(camera), self.coarse(&whole), None)
+            }
+            (Some(camera), Some(step)) => {
+                let (camera, settings, sample) = step.of(camera, &whole);
+                (Use::Still, Some(camera), settings, sample)
+            }
+            (camera, _) => (Use::Still, camera, whole.clone(), None),
         };
-        let settings = self.with_pages(settings, whole)?;
+        let refines = refinement.is_some() && !is_moving && self.can_refine()?;
+        let settings = self.with_pages(settings, whole.clone())?;
+        // Pages have come: samples of what was there before are of no use.
+        let begins_again = self.is_stale && sample.is_some();
+        if begins_again {
+            self.refined = 0;
+            self.window.request_redraw();
+        }
         // What was kept for another camera, or another scene.
         if let Some(error) = self.comparing.and_then(|_| self.check(&self.other).err()) {
             self.comparing = None;
@@ -131,13 +153,12 @@ impl Viewer {
         });
         let background = self.settings.background;
         let settings = settings.map(drawn_so);
-        let camera = self.camera();
-        let wants = self.is_stale || (self.shown == Use::Moving && !is_moving);
+        let wants = (self.is_stale || is_coarse || refines) && !begins_again;
         let mut views = Vec::new();
         if let (true, Some(prepared), Some(camera), Some(settings)) =
             (wants, &self.prepared, &camera, &settings)
         {
-            let view = |settings| SceneView { scene: prepared.scene(), camera, settings, is_light };
+            let view = |settings| SceneView { scene: prepared.scene(), camera, settings, is_light, sample };
             views.push((which, view(settings)));
             views.extend(other.as_ref().map(|other| (Use::Other, view(other))));
         }
@@ -153,8 +174,18 @@ impl Viewer {
         let show = ShowDesc { window_px, light, background, shown };
         let shown = self.prepared.is_some().then_some((pictures, show));
         let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
-        let desc = FrameDesc { views: &views, shown, overlay, profile, input: self.input_at };
-        Ok((self.gpu.draw(&desc)?, drawn))
+        let what = match which {
+            Use::Moving => "moving",
+            _ => refinement.unwrap_or(Refinement::Whole).what(),
+        };
+        let desc = FrameDesc { views: &views, shown, overlay, profile, what, input: self.input_at };
+        let done = self.gpu.draw(&desc)?;
+        if done == Drawn::Shown && drawn == Some(Use::Still) && self.prepared.is_some() {
+            // What comes after the whole picture answers to something else.
+            self.input_at.take_if(|_| what == "whole" && !is_moving);
+            self.refine(&whole);
+        }
+        Ok((done, drawn))
     }
 
     /// The settings with which what is there can be drawn; `None` where nothing is. `whole`: those of the picture at rest.
@@ -194,7 +225,7 @@ impl Viewer {
                 }
                 self.ui.history.push(&cost);
                 if self.options.prints_frames {
-                    console::print(&line(which, &cost))?;
+                    console::print(&line(&cost))?;
                 }
             }
             if !all && self.shows_costs() {
@@ -233,9 +264,8 @@ impl Viewer {
 }
 
 /// A frame as it is printed.
-fn line(which: Use, cost: &Cost) -> String {
-    let [width, height] = cost.size_px;
-    let what = if which == Use::Moving { "moving" } else { "whole" };
+fn line(cost: &Cost) -> String {
+    let ([width, height], what) = (cost.size_px, cost.what);
     let since = cost.since_input.map_or(String::new(), |since| {
         format!(", its end seen {:.1} ms after its input", 1e3 * since.as_secs_f64())
     });

@@ -262,6 +262,8 @@ impl Viewer {
     pub fn run_ui(&mut self) -> Result<Option<OverlayFrame>> {
         let state = State::of(self);
         if !self.ui.is_shown() && !state.shows_difference {
+            // What was to be drawn again is not there any more.
+            self.ui.wakes = None;
             return Ok(None);
         }
         let window_px = self.window_px();

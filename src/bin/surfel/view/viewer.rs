@@ -1,22 +1,18 @@
 //! A scene in a window: what it is made of, and what comes from elsewhere.
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{sync::Arc, time::Instant};
 
 use glam::DVec3;
 use surfel::{
-    Error, ErrorKind, Result,
+    Error, Result,
     levels_file::LevelsFile,
-    scene::{Camera, Encoding, Settings},
+    scene::{Camera, Encoding, Samples, Settings},
 };
 use winit::window::Window;
 
 use super::{
     ViewArguments,
     capture::Clipboard,
-    device::{is_device_lost, open_gpu},
     document::Document,
     edits::Edits,
     files::Files,
@@ -48,7 +44,10 @@ pub struct Viewer {
     /// The scene on the device.
     pub prepared: Option<OnDevice>,
     pub navigation: Option<Navigation>,
+    /// With one sample a pixel.
     pub settings: Settings,
+    /// The samples of a picture, as somebody says.
+    pub samples: Samples,
     pub encoding: Encoding,
     /// Both as they were at first.
     pub first: (Settings, Encoding),
@@ -74,6 +73,10 @@ pub struct Viewer {
     pub is_stale: bool,
     /// The picture that is shown.
     pub shown: Use,
+    /// How many steps to the picture at rest are drawn.
+    pub refined: usize,
+    /// When the next one may be.
+    pub refines: Option<Instant>,
     /// When the costs of frames are looked for.
     pub looks_for_costs: Option<Instant>,
     /// When memory is given back, if nothing is to be drawn by then.
@@ -85,7 +88,7 @@ pub struct Viewer {
     /// The camera of files that are read stays what it is.
     pub keeps_camera: bool,
     /// When the device was lost last.
-    lost: Option<Instant>,
+    pub lost: Option<Instant>,
 }
 
 impl Viewer {
@@ -100,18 +103,19 @@ impl Viewer {
     ) -> Self {
         let ui = Ui::new(window.scale_factor() as f32);
         let samples = settings.samples;
-        let settings = Settings { samples: surfel::scene::Samples(1), ..settings };
+        let settings = Settings { samples: Samples(1), ..settings };
         let encoding = arguments.encoding.over(Encoding::default());
         Self {
             other: settings.clone(),
             first: (settings.clone(), encoding),
             encoding,
-            options: Options::of(arguments, samples),
+            options: Options::of(arguments),
             window,
             gpu,
             loader,
             ui,
             settings,
+            samples,
             input: Input::default(),
             files: Files::default(),
             path,
@@ -129,6 +133,8 @@ impl Viewer {
             was_moving: false,
             input_at: None,
             is_stale: true,
+            refined: 0,
+            refines: None,
             looks_for_costs: None,
             looks_for_pages: None,
             tidies: None,
@@ -209,7 +215,9 @@ impl Viewer {
     fn opened(&mut self, document: Document) -> Result<()> {
         let first = self.document.is_none();
         if first {
-            self.settings = (self.options.said)(document.picture.over(self.settings.clone()));
+            let said = (self.options.said)(document.picture.over(self.settings.clone()));
+            self.samples = said.samples;
+            self.settings = Settings { samples: Samples(1), ..said };
             self.other = self.settings.clone();
             self.first.0 = self.settings.clone();
         }
@@ -256,37 +264,6 @@ impl Viewer {
                 Err(error) => self.tell(&error.to_string()),
             }
         }
-    }
-
-    /// Goes on after an error, if that is possible: with settings that are accepted, or on another device.
-    ///
-    /// # Errors
-    /// The error, where it is not.
-    pub fn recover(&mut self, error: Error) -> Result<()> {
-        // Methods that a camera rules out, and cameras beyond what 32 bits tell apart.
-        if let (ErrorKind::Option { .. }, Some((settings, camera))) = (error.kind(), self.drawn.take()) {
-            self.tell(&error.to_string());
-            self.settings = settings;
-            if let Some(navigation) = &mut self.navigation {
-                navigation.camera = camera;
-            }
-            self.changed();
-            return Ok(());
-        }
-        let now = Instant::now();
-        let again_so_soon = self.lost.is_some_and(|lost| now - lost < Duration::from_secs(10));
-        if !is_device_lost(&error) || again_so_soon {
-            return Err(error);
-        }
-        self.lost = Some(now);
-        self.prepared = None;
-        let (gpu, _) = open_gpu(&self.window, &self.options.device)?;
-        self.gpu = gpu;
-        self.ui = Ui::new(self.window.scale_factor() as f32);
-        self.tell("the device was lost and is opened again");
-        self.prepare(true);
-        self.changed();
-        Ok(())
     }
 
     /// Closes the window; keeps what was compiled.

@@ -37,6 +37,15 @@ impl Gpu {
         Ok((picture.take_costs(), all))
     }
 
+    /// Whether all frames are done.
+    ///
+    /// # Errors
+    /// Whatever the driver answers, such as a lost device.
+    pub fn is_idle(&self) -> Result<bool> {
+        let last = self.frames.iter().map(|frame| frame.epoch).max();
+        self.headless.queue().is_done(last.unwrap_or(0))
+    }
+
     /// Bytes of device memory in transients of all pictures.
     pub fn transient_bytes(&self) -> u64 {
         self.pictures.iter().map(Picture::transient_bytes).sum()

@@ -1,0 +1,90 @@
+//! A picture at rest: it becomes the one that `surfel render` writes, and then nothing is drawn until something changes.
+
+use std::{
+    thread,
+    time::{Duration, Instant},
+};
+
+use super::{
+    CAMERA,
+    faults::open_below,
+    screen::Screen,
+    window::{Folder, View, render, surfel},
+};
+
+/// Polygons have stairs for outlines in one sample; `surfel render` takes 8.
+#[test]
+fn polygons_at_rest_have_the_samples_that_render_takes() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.cube("a.obj");
+    folder.splats("a.ply", 400);
+    for (file, others) in
+        [("a.obj", &[][..]), ("a.obj", &["--tonemap", "agx"]), ("a.ply", &["--samples", "4"])]
+    {
+        let words = [&[file, "--size", "320x240"], &CAMERA[..], others].concat();
+        let (whole, one) =
+            (render(&folder, &words), render(&folder, &[&words[..9], &["--samples", "1"]].concat()));
+        assert!(one.differs_from(&whole) > 200, "{file}");
+        let mut view = View::open(&screen, &folder, &words);
+        view.wait_for(&whole);
+        screen.drag([160, 120], [210, 100], 1);
+        let camera = view.camera();
+        let words: Vec<&str> =
+            words[..3].iter().chain(others).copied().chain(camera.iter().map(String::as_str)).collect();
+        view.wait_for(&render(&folder, &words));
+        screen.key("h");
+        view.wait_for(&whole);
+        view.end();
+    }
+}
+
+/// How many frames were shown.
+fn shown(view: &View<'_>) -> usize {
+    view.said().matches("called: vkQueuePresentKHR").count()
+}
+
+/// Waits until no frame is shown any more for a second; how many were by then.
+fn settled(view: &View<'_>) -> usize {
+    let begun = Instant::now();
+    loop {
+        let before = shown(view);
+        thread::sleep(Duration::from_secs(1));
+        if shown(view) == before {
+            return before;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(60), "it never rests");
+    }
+}
+
+#[test]
+fn nothing_is_drawn_where_nothing_has_changed() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.cube("a.obj");
+    folder.splats("a.ply", 150_000);
+    assert_eq!(surfel(&folder, &["convert", "a.ply", "a.surfel"], &[]).code, 0);
+    for file in ["a.obj", "a.ply", "a.surfel"] {
+        let words = [&[file, "--size", "320x240"], &CAMERA[..]].concat();
+        let mut view = open_below(&screen, &folder, &words, ("SURFEL_COUNTED", "vkQueuePresentKHR"));
+        // Pages are drawn in another order, which turns some pixels.
+        let whole = render(&folder, &words);
+        view.wait_until("all is shown", |shot| shot.differs_from(&whole) < 100);
+        let frames = settled(&view);
+        // The mouse alone changes nothing.
+        for x in 0..20 {
+            screen.drive(&["mousemove", &(100 + x).to_string(), "100"]);
+        }
+        thread::sleep(Duration::from_secs(3));
+        assert_eq!(shown(&view), frames, "{file}");
+        assert!(frames > 0);
+        // What has changed is drawn, and then it rests again; with times, too.
+        screen.drag([100, 100], [140, 110], 1);
+        let turned = settled(&view);
+        assert!(turned > frames, "{file}");
+        screen.key("o");
+        let with_panel = settled(&view);
+        assert!(with_panel > turned, "{file}");
+        thread::sleep(Duration::from_secs(2));
+        assert_eq!(shown(&view), with_panel, "{file}");
+        view.end();
+    }
+}
