@@ -8,6 +8,7 @@
 #include "inc/levels.glsl"
 #include "tile/rect.glsl"
 #include "tile/corners.glsl"
+#include "tile/cut.glsl"
 #define PLANES_SET 1
 #define PLANES_BINDING BIND_PLANES
 #include "inc/planes.glsl"
@@ -143,6 +144,9 @@ void main()
     if (CLIPS) {
         Curve curves[2];
         clip_in_image(index, m, curves);
+        vec2 cells = vec2(cut_cells(curves, rect, vec2(TILE_WIDTH, TILE_HEIGHT)));
+        curves[0].b.w = cells.x;
+        curves[1].b.w = cells.y;
         [[unroll]] for (uint i = 0; i < 2; i++) {
             uint first = CLIP_VECTORS * place + 3 * i;
             clip_records[first] = curves[i].c;

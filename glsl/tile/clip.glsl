@@ -60,8 +60,8 @@ void cut_by_planes(Splat splat, inout float kept[ROWS])
     }
 }
 
-// What curves cut off splats, which `own` of invocations from `place` on have loaded.
-void cut_by_curves(Splat own, Splat splats[AT_ONCE], uint place, inout float kept[AT_ONCE][ROWS])
+// What curves cut off `at_once` splats, which `own` of invocations from `place` on have loaded.
+void cut_by_curves(uint at_once, Splat own, Splat splats[AT_ONCE], uint place, inout float kept[AT_ONCE][ROWS])
 {
     uint most = most_curves(own, splats);
     if (most == 0) {
@@ -70,7 +70,7 @@ void cut_by_curves(Splat own, Splat splats[AT_ONCE], uint place, inout float kep
     uint number = 0;
     do { // a CPU driver runs a body once more than a condition before it says
         Curve own_curve = load_curve(own, splats, number);
-        [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+        [[unroll]] for (uint k = 0; k < at_once; k++) {
             cut_by(broadcast(own_curve, place + k), kept[k]);
         }
         number++;
@@ -78,18 +78,18 @@ void cut_by_curves(Splat own, Splat splats[AT_ONCE], uint place, inout float kep
 }
 
 // What curves leave of splats if they are `clipped`, and planes; 1 where nothing is cut off.
-void find_kept(bool clipped, Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
+void find_kept(bool clipped, uint at_once, Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
 {
-    [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+    [[unroll]] for (uint k = 0; k < at_once; k++) {
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             kept[k][row] = 1.0;
         }
     }
     if (clipped) {
-        cut_by_curves(own, splats, place, kept);
+        cut_by_curves(at_once, own, splats, place, kept);
     }
     if (PLANES > 0) {
-        [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+        [[unroll]] for (uint k = 0; k < at_once; k++) {
             cut_by_planes(splats[k], kept[k]);
         }
     }

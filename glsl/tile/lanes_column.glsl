@@ -12,6 +12,7 @@ layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT
 #define LANES TILE_WIDTH
 #define OWN_LANE gl_SubgroupInvocationID
 #define LOADED TILE_BATCH
+#define CLIPPED_BATCH 2 // few of a tile are, and what is missing in a batch costs as much
 #define AT_ONCE TILE_BATCH // row by row, for a CPU has no registers for the sums of all rows
 
 layout(local_size_x = TILE_WIDTH) in;

@@ -8,6 +8,7 @@
 #define LANES (TILE_WIDTH * MOST_TILE_HEIGHT)
 #define OWN_LANE gl_LocalInvocationIndex
 #define LOADED LANES
+#define CLIPPED_BATCH TILE_BATCH
 #define AT_ONCE 1 // with eight, a GPU would need 144 registers in place of 40
 
 layout(local_size_x = TILE_WIDTH, local_size_y = MOST_TILE_HEIGHT) in;

@@ -17,7 +17,8 @@ Splat load_splat(uint base, uint end)
     uint record = entry(min(number, end - 1));
     vec4 r0 = record0(record);
     float shift = TWO_SIDED && !BY_SIDES ? abs(r0.w) : r0.w;
-    Splat splat = Splat(record, r0.xy, r0.z, shift, record1(record), record2(record).xy);
+    float w0 = PARTED && !CLIPS ? abs(r0.z) : r0.z; // of a clipped one that is whole in the tile
+    Splat splat = Splat(record, r0.xy, w0, shift, record1(record), record2(record).xy);
     if (number >= end) {
         // Behind the list's end: far off, with a map that covers nothing there.
         splat = Splat(record, vec2(1e9), 1.0, 1.0, vec4(1.0, 0.0, 0.0, 1.0), vec2(0.0));
@@ -56,6 +57,7 @@ uint place_of(uint base, uint first)
 
 void see(uint list_first, uint end, bool clipped)
 {
+    uint batch = clipped ? CLIPPED_BATCH : TILE_BATCH;
     Splat own;
     uint base = list_first;
     do {
@@ -64,26 +66,27 @@ void see(uint list_first, uint end, bool clipped)
             own = load_splat(base, end);
             stage_shared(own);
         }
-        [[unroll]] for (uint first = 0; first < TILE_BATCH; first += AT_ONCE) {
+        [[unroll]] for (uint first = 0; first < batch; first += AT_ONCE) {
             Splat splats[AT_ONCE];
-            [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+            [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
                 splats[k] = broadcast(own, place + first + k);
             }
             float kept[AT_ONCE][ROWS];
-            find_kept(clipped, own, splats, place + first, kept);
-            [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+            find_kept(clipped, min(AT_ONCE, batch), own, splats, place + first, kept);
+            [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
                 Column column = column_of(splats[k]);
                 [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
                     see(splats[k], column, clipped || PLANES > 0 ? kept[k][row] : 1.0, row);
                 }
             }
         }
-        base += TILE_BATCH;
+        base += batch;
     } while (base < end);
 }
 
 void sum(uint list_first, uint end, bool clipped, bool lit)
 {
+    uint batch = clipped ? CLIPPED_BATCH : TILE_BATCH;
     Splat own;
     SplatAttributes own_attributes;
     uint base = list_first;
@@ -100,24 +103,24 @@ void sum(uint list_first, uint end, bool clipped, bool lit)
             }
             stage_shared(own_attributes);
         }
-        [[unroll]] for (uint first = 0; first < TILE_BATCH; first += AT_ONCE) {
+        [[unroll]] for (uint first = 0; first < batch; first += AT_ONCE) {
             Splat splats[AT_ONCE];
             SplatAttributes attributes[AT_ONCE];
             Column columns[AT_ONCE];
-            [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+            [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
                 splats[k] = broadcast(own, place + first + k);
                 attributes[k] = broadcast(own_attributes, place + first + k);
                 columns[k] = column_of(splats[k]);
             }
             float kept[AT_ONCE][ROWS];
-            find_kept(clipped, own, splats, place + first, kept);
+            find_kept(clipped, min(AT_ONCE, batch), own, splats, place + first, kept);
             [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+                [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
                     add(splats[k], attributes[k], columns[k], clipped || PLANES > 0 ? kept[k][row] : 1.0, row);
                 }
             }
         }
-        base += TILE_BATCH;
+        base += batch;
     } while (base < end);
 }
 

@@ -12,9 +12,11 @@ layout(constant_id = SPEC_TEXELS) const bool TEXELS = false; // CPU drivers read
 layout(set = 0, binding = BIND_RECTS, std430) readonly buffer Rects { uint rects[]; };
 layout(set = 0, binding = BIND_RECT_TEXELS) uniform utextureBuffer rect_texels;
 
-// PARTED: the first quarter of records tells which are clipped (tile/splat.glsl).
+// PARTED: the first quarter of records tells which are clipped (tile/splat.glsl), and their curves, in which cells they are cut (tile/cut.glsl).
 layout(set = 0, binding = BIND_RECORDS, std430) readonly buffer Records0 { vec4 records0[]; };
 layout(set = 0, binding = BIND_RECORD_TEXELS) uniform textureBuffer record_texels0;
+layout(set = 0, binding = BIND_CLIPS, std430) readonly buffer ClipRecords { vec4 clip_records[]; };
+layout(set = 0, binding = BIND_CLIP_TEXELS) uniform textureBuffer clip_texels;
 
 layout(constant_id = SPEC_LISTED) const bool LISTED = false; // records are those of a list, whose length only the device knows
 layout(set = 0, binding = BIND_VISIBLE_STARTS, std430) readonly buffer VisibleStarts { uint visible_starts[]; };
@@ -24,10 +26,17 @@ uint rect_of(uint record)
     return TEXELS ? texelFetch(rect_texels, int(record)).x : rects[record];
 }
 
-// Of the bins of a tile the one for the record.
-uint bin_within_tile(uint record)
+uint cells_of_curve(uint record, uint number)
 {
-    return PARTED && (TEXELS ? texelFetch(record_texels0, int(record)).z : records0[record].z) < 0.0 ? 1 : 0;
+    uint place = CLIP_VECTORS * record + 3 * number + 2;
+    return uint(TEXELS ? texelFetch(clip_texels, int(place)).w : clip_records[place].w);
+}
+
+// The cells of a record's rect where something is left of it, and those where curves cut it.
+uvec2 cells_of(uint record)
+{
+    bool clipped = PARTED && (TEXELS ? texelFetch(record_texels0, int(record)).z : records0[record].z) < 0.0;
+    return clipped ? uvec2(cells_of_curve(record, 0), cells_of_curve(record, 1)) : uvec2(~0u, 0);
 }
 
 // Records of the segment.
@@ -54,7 +63,8 @@ void walk()
     uint tile = 0;
     uint row_tile = 0; // the first of the row
     uint outside = 0;
-    uint within_tile = 0;
+    uvec2 size = uvec2(0);
+    uvec2 cells = uvec2(0);
     while (next < end || in_row > 0) {
         if (in_row == 0) {
             record = (next / SEGMENT_BLOCK * push.segments + segment) * SEGMENT_BLOCK + next % SEGMENT_BLOCK;
@@ -68,7 +78,8 @@ void walk()
                 uvec2 first = first_of(rect);
                 uvec2 more = more_of(rect);
                 outside = outside_of(rect);
-                within_tile = bin_within_tile(record);
+                size = more;
+                cells = cells_of(record);
                 width = more.x + 1;
                 rows = more.y;
                 row_tile = first.x + first.y * push.tiles_x - push.first_tile;
@@ -77,7 +88,10 @@ void walk()
             }
         }
         if (in_row > 0) {
-            visit(record, TILE_BINS * tile + within_tile);
+            uint cell = PARTED ? cell_of(uvec2(tile - row_tile, size.y - rows), cell_shift(size)) : 0;
+            if (!PARTED || (cells.x >> cell & 1) != 0) {
+                visit(record, TILE_BINS * tile + (PARTED ? cells.y >> cell & 1 : 0));
+            }
             tile++;
             in_row--;
             if (in_row == 0 && rows > 0) {

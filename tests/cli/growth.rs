@@ -84,3 +84,21 @@ fn growth_takes_closed_meshes_and_has_its_lists_alone() {
     let refused = growth(&folder, &["--sizes", "64x"]);
     assert!(refused.code != 0 && refused.stderr.contains("the side of a square"), "{}", refused.stderr);
 }
+
+/// Without a device, whatever one can do.
+#[test]
+fn making_splats_of_a_mesh_is_told_and_plotted() {
+    let folder = Folder::new();
+    folder
+        .write("tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    let files = ["--json", "i3.json", "--csv", "tables", "--plot", "i3.svg"];
+    let run = surfel(&folder, &[&["bench", "i3", "--model", "tetrahedron.obj"], &files[..]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let rows = folder.json("i3.json")["i3"]["rows"].clone();
+    // Each of its triangles has three ridges, of which a splat can be cut at two.
+    assert_eq!((rows[0]["triangles"].as_u64(), rows[0]["splats"].as_u64()), (Some(4), Some(16)), "{rows}");
+    assert!(rows[0]["secs"]["median"].as_f64() > Some(0.0), "{rows}");
+    let text = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
+    assert!(text("tables/i3.csv").starts_with("triangles,splats,clipped,seconds"));
+    assert!(text("i3.svg").contains("\nn log n\n"));
+}

@@ -26,6 +26,9 @@ use crate::progress::Progress;
 /// The part of all candidates that a pass collapses at the most: the next ones may be cheaper after it.
 const PART_A_PASS: f64 = 0.125;
 
+/// The same where fewer than twice as many triangles are left as there shall be: what is cheapest is worth most at the end, when passes cost least.
+const PART_NEAR_THE_END: f64 = 0.03;
+
 /// A piece of a ridge, from a vertex to another.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
@@ -129,7 +132,8 @@ impl<'a> State<'a> {
             .filter(|vertex| !around.of_vertex(*vertex).is_empty())
             .filter_map(|vertex| self.cheapest(vertex, &around, most))
             .collect();
-        let most_done = 1 + (candidates.len() as f64 * PART_A_PASS) as usize;
+        let part = if self.triangles.len() / 2 > goal.triangles { PART_A_PASS } else { PART_NEAR_THE_END };
+        let most_done = 1 + (candidates.len() as f64 * part) as usize;
         let mut locked = vec![false; self.positions.len()];
         let mut became: Vec<u32> = (0..self.positions.len() as u32).collect();
         let mut marks = Marks::new(self.positions.len());
@@ -248,7 +252,7 @@ impl<'a> State<'a> {
         let curve = piece.map_or(0.0, |piece| piece.fitted.most * piece.fitted.most);
         let mut give = |to: u32| {
             let price = own.mean_square(self.place(to)) + curve;
-            let rank = price + 1e-6 * self.place(from).distance_squared(self.place(to));
+            let rank = price + 1e-7 * self.place(from).distance_squared(self.place(to));
             then(Target { rank, price, to });
         };
         match piece {

@@ -1,6 +1,7 @@
 //! All that a run of `surfel bench` found: tables with what explains them, and what a later run is judged by.
 
 mod clips;
+mod conversion;
 mod empty_layers;
 mod floor;
 pub mod gate;
@@ -26,6 +27,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 pub use clips::{Clipped, ClipsReport, ClipsRow, PAPER_OCCUPANCIES, PAPER_PARTS};
+pub use conversion::{ConversionReport, ConversionRow};
 pub use empty_layers::{EmptyLayers, LayerPass};
 pub use floor::{FloorReport, FloorRound, FloorRow};
 pub use growth::{GrowthPoint, GrowthRate, GrowthReport, growth_powers};
@@ -37,7 +39,7 @@ pub use layers::{LayersDrawn, LayersReport, OpaqueClaim, Places};
 pub use level_error::LevelError;
 pub use limits::{BoundRow, LimitRow, LimitWork, LimitsReport, PassWork};
 pub use measurement::Measurement;
-pub use plots::{growth_plot, throughput_plot};
+pub use plots::{conversion_plot, growth_plot, throughput_plot};
 pub use slides::{SLIDES, Slide};
 pub use throughput::{
     PAPER_SPLATS, PaperMethod, PaperThroughput, Throughput, ThroughputRow, paper_throughput,
@@ -103,6 +105,9 @@ pub struct BenchReport {
     /// `i2`: what they cost over how much of the image splats cover.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub i2: Option<ClipsReport>,
+    /// `i3`: clipped splats in the making.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub i3: Option<ConversionReport>,
     /// `counts`: the instructions of every pipeline.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counts: Option<InstructionReport>,
@@ -116,7 +121,7 @@ pub struct BenchReport {
 }
 
 /// The tables that are written as CSV, by the names of their files.
-pub const TABLES: [&str; 21] = [
+pub const TABLES: [&str; 22] = [
     "floor",
     "floor-limits",
     "floor-bounds",
@@ -137,6 +142,7 @@ pub const TABLES: [&str; 21] = [
     "hybrid",
     "i1",
     "i2",
+    "i3",
     "counts",
 ];
 
@@ -168,6 +174,7 @@ impl BenchReport {
         tables.extend(self.hybrid.as_ref().map(|hybrid| ("hybrid", hybrid.grid())));
         tables.extend(self.i1.as_ref().map(|i1| ("i1", i1.grid())));
         tables.extend(self.i2.as_ref().map(|i2| ("i2", i2.grid())));
+        tables.extend(self.i3.as_ref().map(|i3| ("i3", i3.grid())));
         if let Some(counts) = &self.counts {
             tables.push(("counts", counts.grid()));
             tables.extend(counts.isa_grid().map(|grid| ("", grid)));
@@ -201,6 +208,7 @@ impl BenchReport {
         figures.extend(self.transition.iter().flat_map(TransitionReport::gate));
         figures.extend(self.growth.iter().flat_map(GrowthReport::gate));
         figures.extend(self.i1.iter().chain(&self.i2).flat_map(ClipsReport::gate));
+        figures.extend(self.i3.iter().flat_map(ConversionReport::gate));
         figures.extend(self.p1.iter().flat_map(HierarchyReport::gate));
         figures.extend(self.p2.iter().flat_map(TolerancesReport::gate));
         figures.extend(self.hybrid.iter().flat_map(HybridReport::gate));

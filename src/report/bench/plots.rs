@@ -2,7 +2,7 @@
 
 use plotters::style::{BLACK, RGBColor};
 
-use super::{GrowthPoint, GrowthReport, ThroughputRow};
+use super::{ConversionReport, GrowthPoint, GrowthReport, ThroughputRow};
 use crate::report::{
     Spread,
     plot::{Axis, Chart, Mark, Place, Plot, Sign, color},
@@ -88,6 +88,23 @@ pub fn growth_plot(report: &GrowthReport, device: &str) -> Plot {
     plot
 }
 
+/// Seconds over triangles; the bars are the smallest and the largest. Beside them what the first row's time would grow to by n log n.
+pub fn conversion_plot(report: &ConversionReport) -> Plot {
+    let mut plot = Plot::default();
+    let rows = || report.rows.iter().filter_map(|row| Some((row.triangles as f64, row.secs?)));
+    let name = format!("{}, {} threads", report.model, report.threads);
+    let medians = rows().map(|(n, secs)| (n, secs.median));
+    let mut marks = vec![line(&mut plot, name, (color(0), 2), medians)];
+    marks.extend(rows().map(|(n, secs)| bar(n, [secs.min, secs.max], color(0))));
+    if let Some((first, secs)) = rows().next() {
+        let grown = move |n: f64| secs.median * (n * n.ln()) / (first * first.ln());
+        marks.push(line(&mut plot, "n log n".to_owned(), (BLACK, 1), rows().map(|(n, _)| (n, grown(n)))));
+    }
+    let axes = ["triangles", "seconds (median; bars: smallest and largest)"];
+    plot.charts.push(chart("clipped splats of a mesh", axes, marks));
+    plot
+}
+
 /// A line for each rasterizer.
 fn growth_chart(points: &[GrowthPoint], caption: &str, name: &str, grows: fn(&GrowthPoint) -> u64) -> Chart {
     let mut marks = Vec::new();
@@ -106,7 +123,10 @@ fn growth_chart(points: &[GrowthPoint], caption: &str, name: &str, grows: fn(&Gr
 
 #[cfg(test)]
 mod tests {
-    use super::{super::growth::tests::report, *};
+    use super::{
+        super::{ConversionRow, growth::tests::report},
+        *,
+    };
 
     #[test]
     fn the_plot_has_a_line_for_each_rasterizer_in_both_charts() {
@@ -122,8 +142,32 @@ mod tests {
     }
 
     #[test]
+    fn seconds_over_triangles_have_a_line_and_bars_and_stand_beside_n_log_n() {
+        let row = |triangles: u64, secs: f64| ConversionRow {
+            triangles,
+            splats: 2500,
+            clipped: 70,
+            secs: Spread::of([0.9 * secs, secs, secs, secs, secs, 1.1 * secs]),
+        };
+        let rows = vec![row(10_000, 0.02), row(100_000, 0.2), row(1_000_000, 2.0)];
+        let report = ConversionReport { model: "a part".to_owned(), threads: 2, rows };
+        let plot = conversion_plot(&report);
+        let Mark::Line { points, .. } = &plot.charts[0].marks[4] else { panic!("a line") };
+        assert!((points[2].1 - 0.02 * 100.0 * 6.0 / 4.0).abs() < 1e-9, "{points:?}");
+        let svg = plot.svg([1280, 800]).unwrap();
+        for text in ["a part, 2 threads", "n log n", "triangles"] {
+            assert!(svg.contains(&format!("\n{text}\n")), "'{text}' is not in {svg}");
+        }
+    }
+
+    #[test]
     fn nothing_measured_is_an_empty_plot() {
-        for plot in [growth_plot(&GrowthReport::default(), ""), throughput_plot(&[], "")] {
+        let plots = [
+            growth_plot(&GrowthReport::default(), ""),
+            throughput_plot(&[], ""),
+            conversion_plot(&ConversionReport::default()),
+        ];
+        for plot in plots {
             assert!(plot.svg([1280, 800]).unwrap().starts_with("<svg"));
         }
     }

@@ -53,13 +53,13 @@ pub struct BenchArguments {
     pub table: Bench,
 
     /// A PLY or OBJ file; for table1, slides, growth, p1, p2 and hybrid a mesh, which is resampled evenly over its area and for growth must be
-    /// closed; for i1 and i2 a mesh with sharp edges; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition and hybrid the built-in sphere]
+    /// closed; for i1 to i3 a mesh with sharp edges; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition and hybrid the built-in sphere]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
-    /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides, p2 and i2 take the first; by itself layers takes it
+    /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides, p2, i2 and i3 take the first; by itself layers takes it
     /// for each of its 27 balls, and transition for the whole model; by itself hybrid takes the first; growth, p1 and i1 take all, growth the middle one over sizes
-    /// [default: the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M, for p2 1M, for hybrid one a vertex, for i1 2500, 5000 and one a triangle, for i2 2500]
+    /// [default: the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M, for p2 1M, for hybrid one a vertex, for i1 2500, 5000 and one a triangle, for i2 and i3 2500]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
@@ -118,7 +118,7 @@ pub struct BenchArguments {
     #[arg(long, value_name = "DIR", help_heading = "Results")]
     pub csv: Option<PathBuf>,
 
-    /// Draw milliseconds over numbers of splats (table1), and over pixels too (growth)
+    /// Draw milliseconds over numbers of splats (table1), and over pixels too (growth), or seconds over triangles (i3)
     #[arg(long, value_name = "FILE.svg", help_heading = "Results")]
     pub plot: Option<PathBuf>,
 
@@ -152,22 +152,27 @@ pub enum Bench {
     I1,
     /// The same over how much of the image splats cover, beside their table 2
     I2,
+    /// Clipped splats in the making: seconds over triangles of a mesh
+    I3,
     /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
     Counts,
-    /// All of them but growth, p1, p2, hybrid, i1 and i2
+    /// All of them but growth, p1, p2, hybrid and i1 to i3
     All,
 }
 
 impl Bench {
     /// Whether this name stands for `table`.
     pub fn has(self, table: Self) -> bool {
-        let alone = matches!(table, Self::Growth | Self::P1 | Self::P2 | Self::Hybrid | Self::I1 | Self::I2);
+        let alone = matches!(
+            table,
+            Self::Growth | Self::P1 | Self::P2 | Self::Hybrid | Self::I1 | Self::I2 | Self::I3
+        );
         self == table || self == Self::All && !alone
     }
 
-    /// Whether any of its figures are times of a device: instructions are counted without one, and hierarchies made.
+    /// Whether any of its figures are times of a device: instructions are counted without one, and hierarchies and splats made.
     pub fn needs_device(self) -> bool {
-        !matches!(self, Self::Counts | Self::P1)
+        !matches!(self, Self::Counts | Self::P1 | Self::I3)
     }
 
     /// Whether any of its contestants take turns of pairs of frames.

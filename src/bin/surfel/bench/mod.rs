@@ -9,6 +9,7 @@ mod floor;
 mod gate;
 mod growth;
 mod hybrid;
+mod i3;
 mod layers;
 mod limits;
 mod model;
@@ -98,6 +99,7 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
     report.counts =
         arguments.table.has(Bench::Counts).then(|| counts::gather(arguments, &context.bars)).transpose()?;
     report.p1 = arguments.table.has(Bench::P1).then(|| p1::measure(&mut context)).transpose()?;
+    report.i3 = arguments.table.has(Bench::I3).then(|| i3::measure(&mut context)).transpose()?;
     report.inputs = std::mem::take(&mut context.inputs);
     let measured = headless.map_or(Ok(()), |headless| measure(headless, &mut context, &mut report));
     context.bars.clear();

@@ -4,7 +4,7 @@ use surfel::{
     Error, Result,
     report::{
         PLOT_SIZE_PX,
-        bench::{BenchReport, TABLES, growth_plot, throughput_plot},
+        bench::{BenchReport, TABLES, conversion_plot, growth_plot, throughput_plot},
     },
     save,
 };
@@ -18,8 +18,13 @@ use crate::{json::write_json, outputs};
 /// A place that can't be written to, that is an input, or that is named twice; a plot without anything to plot.
 pub fn check(arguments: &BenchArguments) -> Result<()> {
     let BenchArguments { json, markdown, plot, csv, model, baseline, table, .. } = arguments;
-    if plot.is_some() && !table.has(Bench::Table1) && !table.has(Bench::Growth) {
-        return Err(Error::option("--plot", format!("{} is not over numbers of splats", table.name())));
+    if plot.is_some()
+        && ![Bench::Table1, Bench::Growth, Bench::I3].into_iter().any(|plotted| table.has(plotted))
+    {
+        return Err(Error::option(
+            "--plot",
+            format!("{} is not over numbers of splats or triangles", table.name()),
+        ));
     }
     plot.iter().try_for_each(|path| outputs::check_name("--plot", path, &["svg"]))?;
     let names = TABLES.map(|name| format!("{name}.csv"));
@@ -36,9 +41,10 @@ pub fn write(arguments: &BenchArguments, report: &BenchReport) -> Result<()> {
     }
     if let Some(path) = &arguments.plot {
         let name = report.device.as_ref().map_or("", |device| device.name.as_str());
-        let plot = match &report.growth {
-            Some(growth) => growth_plot(growth, name),
-            None => throughput_plot(&report.table1, name),
+        let plot = match (&report.growth, &report.i3) {
+            (Some(growth), _) => growth_plot(growth, name),
+            (None, Some(conversion)) => conversion_plot(conversion),
+            (None, None) => throughput_plot(&report.table1, name),
         };
         save::text(path, &plot.svg(PLOT_SIZE_PX)?)?;
     }

@@ -124,9 +124,9 @@ impl ReportArguments {
             "transition" | "hybrid" => (Some("20k"), Some("512x512")),
             _ => (None, None),
         };
-        let line = line.given("--model", self.model.as_ref().filter(|_| name != "layers"));
+        let line = line.given("--model", self.model.as_ref().filter(|_| !matches!(name, "layers" | "i3")));
         let line = line.given("--splats", splats).given("--size", size);
-        let line = line.given("--plot", (name == "table1").then_some("table1.svg"));
+        let line = line.given("--plot", ["table1", "i3"].contains(&name).then(|| format!("{name}.svg")));
         let line = self.on_device(self.with_frames(line));
         if self.device.validate { line.word("--validate") } else { line }
     }

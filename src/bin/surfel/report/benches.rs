@@ -5,7 +5,7 @@ use surfel::{
     Result,
     report::{
         PLOT_SIZE_PX,
-        bench::{BenchReport, HybridView, LayersDrawn, Measurement, throughput_plot},
+        bench::{BenchReport, HybridView, LayersDrawn, Measurement, conversion_plot, throughput_plot},
     },
 };
 
@@ -183,7 +183,21 @@ pub fn clips(session: &mut Session<'_>) -> Result<Part> {
     })?;
     let (over_occupancy, _) = of_bench(session, "i2", |_| None)?;
     let over_occupancy = part.go_on_with(over_occupancy);
-    part.data = vec![to_value(&over_splats.i1)?, over_occupancy].into();
+    let mut data = vec![to_value(&over_splats.i1)?, over_occupancy];
+    // Its largest mesh takes what a quick report has for all.
+    if !session.arguments.quick {
+        let (making, report) = of_bench(session, "i3", |_| None)?;
+        data.push(part.go_on_with(making));
+        if let Some(made) = &report.i3 {
+            part.blocks.push(Block::Plot {
+                svg: conversion_plot(made).svg(PLOT_SIZE_PX)?,
+                alt: "seconds over triangles of a mesh that becomes splats, both logarithmic".to_owned(),
+                caption: "Seconds from a mesh to its clipped splats, beside what the first time would grow to by n log n."
+                    .to_owned(),
+            });
+        }
+    }
+    part.data = data.into();
     Ok(part)
 }
 

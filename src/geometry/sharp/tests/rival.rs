@@ -93,16 +93,15 @@ fn measured(name: &str, mesh: &Mesh, count: usize) -> [(f64, f64); 2] {
     })
 }
 
-/// With very few ours are farther: triangles that are so thin that their ellipses reach far, or whose ellipses don't hold their curves, are
-/// not made. What curves add along ridges is not counted here.
+/// What curves add along ridges is not counted here.
 #[test]
 fn as_few_triangles_are_as_near_as_those_of_meshoptimizer() {
-    let mut meshes = vec![("bored block", bored_block(96, 6), [(2500, 1.2), (600, 2.5)])];
-    meshes.extend(real_mesh("fandisk.obj").map(|mesh| ("fandisk", mesh, [(2500, 1.2), (1000, 1.2)])));
+    let mut meshes = vec![("bored block", bored_block(96, 6), [2500, 600])];
+    meshes.extend(real_mesh("fandisk.obj").map(|mesh| ("fandisk", mesh, [2500, 1000])));
     for (name, mesh, counts) in meshes {
-        for (count, times) in counts {
+        for count in counts {
             let [ours, theirs] = measured(name, &mesh, count);
-            assert!(ours.0 < times * theirs.0, "{name}: {:.2e} and {:.2e}", ours.0, theirs.0);
+            assert!(ours.0 < 1.2 * theirs.0, "{name}: {:.2e} and {:.2e}", ours.0, theirs.0);
             assert!(count == 600 || ours.1 < theirs.1, "{name}: {:.2} and {:.2} degrees", ours.1, theirs.1);
         }
     }
