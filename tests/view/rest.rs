@@ -12,11 +12,19 @@ use super::{
     window::{Folder, View, render, surfel},
 };
 
+/// A cube of triangles.
+fn cube(folder: &Folder, name: &str) {
+    let corner = |i: u32| [0, 1, 2].map(|axis| 2 * (i >> axis & 1)).map(|at| f64::from(at) - 1.0);
+    let corners = (0..8).map(corner).map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+    let faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];
+    folder.write(name, &corners.chain(faces.map(|face| format!("f {face}\n"))).collect::<String>());
+}
+
 /// Polygons have stairs for outlines in one sample; `surfel render` takes 8.
 #[test]
 fn polygons_at_rest_have_the_samples_that_render_takes() {
     let (screen, folder) = (Screen::new(), Folder::new());
-    folder.cube("a.obj");
+    cube(&folder, "a.obj");
     folder.splats("a.ply", 400);
     for (file, others) in
         [("a.obj", &[][..]), ("a.obj", &["--tonemap", "agx"]), ("a.ply", &["--samples", "4"])]
@@ -59,7 +67,7 @@ fn settled(view: &View<'_>) -> usize {
 #[test]
 fn nothing_is_drawn_where_nothing_has_changed() {
     let (screen, folder) = (Screen::new(), Folder::new());
-    folder.cube("a.obj");
+    cube(&folder, "a.obj");
     folder.splats("a.ply", 150_000);
     assert_eq!(surfel(&folder, &["convert", "a.ply", "a.surfel"], &[]).code, 0);
     for file in ["a.obj", "a.ply", "a.surfel"] {
