@@ -29,7 +29,7 @@ impl NewPiece {
 /// A vertex onto which another may go.
 #[derive(Clone, Copy)]
 pub(super) struct Target {
-    /// The price, and a ten-millionth of the squared length of the edge: where a surface is flat, short ones go first.
+    /// The price, and a millionth of the squared length of the edge: where a surface is flat, short ones go first.
     pub rank: f64,
     pub price: f64,
     pub to: u32,

@@ -252,7 +252,7 @@ impl<'a> State<'a> {
         let curve = piece.map_or(0.0, |piece| piece.fitted.most * piece.fitted.most);
         let mut give = |to: u32| {
             let price = own.mean_square(self.place(to)) + curve;
-            let rank = price + 1e-7 * self.place(from).distance_squared(self.place(to));
+            let rank = price + 1e-6 * self.place(from).distance_squared(self.place(to));
             then(Target { rank, price, to });
         };
         match piece {

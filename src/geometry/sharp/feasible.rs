@@ -14,7 +14,7 @@ use super::{
 const COS_TURN: f64 = 0.5;
 
 /// A triangle's longest side is no more times as long as the triangle is high, where it was not before: ellipses of thin ones reach far.
-const THINNEST: f64 = 30.0;
+const THINNEST: f64 = 16.0;
 
 /// By how much, in radii, a curve may leave the ellipse whose triangle it bounds.
 const BEYOND: f64 = 0.02;
