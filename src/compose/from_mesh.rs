@@ -4,8 +4,8 @@ use super::{
     hybrid::{self, usual_samples},
     parts::{Parts, StepTimer},
     words::{
-        counted, finish, finish_triangles, in_cells, mesh_head, normals_computed, radii_computed, split_into,
-        too_coarse, too_uneven,
+        ASKED_FOR, counted, dense_enough, finish, finish_triangles, in_cells, mesh_head, normals_computed,
+        radii_computed, split_into, too_coarse, too_uneven,
     },
 };
 use crate::{
@@ -32,7 +32,8 @@ pub(super) fn parts(
         mesh.colors.tint(object.color, object.alpha);
         mesh
     };
-    match (object.representation, object.samples) {
+    let chosen = object.representation == Representation::Auto && object.samples.is_none();
+    let parts = match (object.representation, object.samples) {
         (Representation::Splats, None) => {
             Ok(splats(work.time(format!("normals and radii of {name}"), |progress| {
                 splats_at_vertices(&placed(own), name, progress)
@@ -64,7 +65,13 @@ pub(super) fn parts(
                 both(&mesh, name, &stay, &options, progress)
             })
         }
-    }
+    };
+    parts.map(|parts| if chosen { parts } else { because(parts, ASKED_FOR.to_owned()) })
+}
+
+fn because(mut parts: Parts, because: String) -> Parts {
+    parts.report.because = because;
+    parts
 }
 
 fn splats((object, report): (Object, InputReport)) -> Parts {
@@ -77,19 +84,26 @@ fn best(mesh: Mesh, name: String, work: &mut StepTimer<'_>) -> Result<Parts> {
         fitting_splats(&mesh, DEFAULT_OVERLAP, progress)
     });
     match fitness.suited() {
-        Suited::VertexDisks => Ok(splats(at_vertices(&mesh, name, (made, report)))),
+        Suited::VertexDisks => {
+            let parts = splats(at_vertices(&mesh, name, (made, report)));
+            Ok(because(parts, dense_enough(&fitness)))
+        }
         Suited::SpreadDisks(count) => {
             drop(made);
             let samples = Samples { count, seed: 0 };
             let (object, mut report) =
                 work.time(format!("resample {name}"), |progress| resampled(&mesh, name, samples, progress))?;
             let disks = counted(object.splats.len(), "disk", "disks");
-            report.summary += &format!("; drawn as {disks}{}", too_uneven(&fitness));
-            Ok(splats((object, report)))
+            let why = too_uneven(&fitness);
+            report.summary += &format!("; drawn as {disks}: {why}");
+            Ok(because(splats((object, report)), why))
         }
         Suited::Triangles => {
             drop(made);
-            Ok(work.time(format!("normals of {name}"), |_| triangles(mesh, name, &too_coarse(&fitness))))
+            let why = too_coarse(&fitness);
+            let parts =
+                work.time(format!("normals of {name}"), |_| triangles(mesh, name, &format!(": {why}")));
+            Ok(because(parts, why))
         }
     }
 }

@@ -30,6 +30,7 @@ pub(super) fn parts(
         let (splats, report) = splats_from_points(points, progress);
         let (object, mut told) = finish(Object { name, splats, closed: false }, report.to_string(), None);
         told.notes = [report.notes(), told.notes].concat();
+        told.because = "points become disks that close their surface".to_owned();
         Parts { splats: Some(object), triangles: None, levels: None, report: told }
     }))
 }

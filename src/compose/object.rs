@@ -83,6 +83,9 @@ fn make_opened(opened: Opened, object: &ObjectDescription, mut work: StepTimer<'
         return Err(of_object(Error::input("", "", problem), object));
     }
     report.notes = [notes, report.notes].concat();
+    if report.because.is_empty() && file.is_some() {
+        report.because = "its file holds splats".to_owned();
+    }
     report.model = file;
     let up = up.and_then(|up| object.world_from_object.transform_vector3(up).try_normalize());
     Ok(BuiltObject { splats, triangles, levels, up, report, steps: work.steps })

@@ -119,7 +119,13 @@ fn what_shows_a_mesh_best_is_chosen_and_told() {
     let auto = of_file(&folder, "ball.obj");
     let asked = ObjectDescription { representation: Representation::Splats, ..auto.clone() };
     let [chosen, asked] = [auto, asked].map(|object| make_one(&object, &()).unwrap());
-    assert_eq!(chosen.report, asked.report);
+    assert_eq!(
+        chosen.report.because,
+        "dense enough for a disk at each vertex (none would stand visibly off its surface); --representation mesh draws \
+         triangles"
+    );
+    assert_eq!(asked.report.because, "asked for");
+    assert_eq!(InputReport { because: asked.report.because.clone(), ..chosen.report.clone() }, asked.report);
     let expected = "ball.obj: 10242 vertices, 20480 triangles: closed; normals and radii computed";
     assert_eq!(chosen.report.summary, expected);
 }
@@ -135,7 +141,7 @@ fn what_was_done_and_what_the_file_holds_is_in_the_report() {
         (notes, report.model.unwrap())
     };
     let (notes, model) = told("splats.ply");
-    assert_eq!(notes, ["1 splats whose normal is zero or not finite left out"]);
+    assert_eq!(notes, ["1 splat whose normal is zero or not finite left out"]);
     assert_eq!((model.holds, model.points, model.triangles), ("splats", 3, None));
     assert_eq!(model.bounds, Some([[0.0; 3], [2.0, 0.0, 0.0]]));
     assert_eq!([model.normals, model.colors, model.sizes], [true, false, true]);
@@ -146,7 +152,7 @@ fn what_was_done_and_what_the_file_holds_is_in_the_report() {
     let points = SPLATS.replace("property float radius\n", "").replace(" 1\n", "\n");
     fs::write(folder.path().join("points.ply"), points.replace("2 0 0 0 0 0", "1 0 0 0 0 1")).unwrap();
     let (notes, model) = told("points.ply");
-    assert_eq!(notes, ["1 points at the place of another merged", "2 radii computed"]);
+    assert_eq!(notes, ["1 point at the place of another merged", "2 radii computed"]);
     assert_eq!([model.normals, model.sizes], [true, false]);
 }
 

@@ -34,6 +34,7 @@ pub(super) fn finish_splats(
         splats: object.splats.len(),
         dropped: defects.total(),
         drawn_as: "splats",
+        because: String::new(),
         model: None,
         notes: defect_notes(&defects),
         summary,
@@ -93,13 +94,30 @@ pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
 
 /// Why a mesh is drawn as triangles though nobody asked for it.
 pub(super) fn too_coarse(fitness: &Fitness) -> String {
-    format!(": too coarse for splats ({fitness}); --representation splats draws disks")
+    format!("too coarse for splats ({fitness}); --representation splats draws disks")
 }
 
 /// Why a mesh is sampled anew though nobody asked for it.
 pub(super) fn too_uneven(fitness: &Fitness) -> String {
-    format!(": too uneven for one at each vertex ({fitness}); --representation splats draws those")
+    format!("too uneven for one at each vertex ({fitness}); --representation splats draws those")
 }
+
+/// Why a mesh has a disk at each vertex though nobody asked for it.
+pub(super) fn dense_enough(fitness: &Fitness) -> String {
+    match fitness.rough > 0.0 {
+        true => {
+            format!("dense enough for a disk at each vertex ({fitness}); --representation mesh draws triangles")
+        }
+        false => {
+            "dense enough for a disk at each vertex (none would stand visibly off its surface); --representation \
+             mesh draws triangles"
+                .to_owned()
+        }
+    }
+}
+
+/// Why something is drawn as what somebody asked for.
+pub(super) const ASKED_FOR: &str = "asked for";
 
 /// The kind of the splats, in the plural.
 pub fn splats_kind(splats: &Splats) -> &'static str {

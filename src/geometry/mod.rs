@@ -27,7 +27,7 @@ mod topology;
 mod turns;
 mod up;
 
-pub use cloud::{CloudReport, splats_from_points};
+pub use cloud::{CloudReport, Sides, splats_from_points};
 pub use fitness::{Fitness, Suited};
 pub use flat_front::is_flat_in_front;
 pub use hybrid::{
@@ -40,7 +40,7 @@ pub use seams::{Seam, seams};
 pub use shaded_mesh::{creased_mesh, shaded_mesh};
 pub use spacing::{mean_edge, mean_spacing};
 pub use surface::MeshReport;
-pub use up::{FoundUp, up_of_shape};
+pub use up::{FoundUp, may_lie_on_its_back, up_of_shape};
 
 use glam::DVec3;
 

@@ -34,13 +34,43 @@ pub struct FoundUp {
 /// A splat or triangle.
 struct Piece {
     place: DVec3,
-    /// Of the unit normal, without sign.
+    /// Of the unit normal along z and along y, without sign.
     upright: f64,
+    flat_along_y: f64,
     area: f64,
+}
+
+/// Whether nothing of a scene's shape tells what is up, and yet it may well be +z: as in a room, which is lower along z than it is wide, with a level floor
+/// at the bottom along z that covers 60% of its box and is larger than what is at the bottom along y, and walls.
+pub fn may_lie_on_its_back(scene: &Scene) -> bool {
+    let Some((pieces, bounds)) = open_pieces(scene) else { return false };
+    let extent = bounds.max - bounds.min;
+    if extent.min_element() <= 0.0 || extent.z >= extent.x.min(extent.y) {
+        return false;
+    }
+    let is_floor = |piece: &Piece| is_floor(piece, &bounds);
+    let floor = cells_of(&pieces, &bounds, &is_floor).iter().filter(|cell| **cell).count();
+    let is_at_front =
+        |piece: &Piece| piece.flat_along_y > LEVEL && piece.place.y - bounds.min.y < LOW * extent.y;
+    10 * floor >= 6 * CELLS * CELLS
+        && share(&pieces, is_floor) >= 0.1_f64.max(share(&pieces, is_at_front))
+        && share(&pieces, |piece| piece.upright < UPRIGHT) >= 0.15
 }
 
 /// +z, where the scene's shape tells that it is up; `None` where it tells nothing.
 pub fn up_of_shape(scene: &Scene) -> Option<FoundUp> {
+    let (pieces, bounds) = open_pieces(scene)?;
+    let because = match () {
+        () if is_on_a_map(&bounds) => "its x and y are those of a map",
+        () if is_terrain(&pieces, &bounds) => "it lies flat as ground does",
+        () if stands_on_ground(&pieces, &bounds) => "it stands on a floor",
+        () => return None,
+    };
+    Some(FoundUp { direction: DVec3::Z, because: because.to_owned() })
+}
+
+/// What is not closed, and its bounds; `None` where it is too few.
+fn open_pieces(scene: &Scene) -> Option<(Vec<Piece>, Bounds)> {
     let splats = scene.objects.iter().filter(|object| !object.closed);
     let meshes = scene.meshes.iter().filter(|object| !object.closed);
     let mut pieces: Vec<Piece> = splats.flat_map(|object| pieces_of_splats(&object.splats)).collect();
@@ -49,13 +79,7 @@ pub fn up_of_shape(scene: &Scene) -> Option<FoundUp> {
         return None;
     }
     let bounds = pieces.iter().map(|piece| Bounds::of_ball(piece.place, 0.0)).reduce(Bounds::union)?;
-    let because = match () {
-        () if is_on_a_map(&bounds) => "its x and y are those of a map",
-        () if is_terrain(&pieces, &bounds) => "it lies flat as ground does",
-        () if stands_on_ground(&pieces, &bounds) => "it stands on a floor",
-        () => return None,
-    };
-    Some(FoundUp { direction: DVec3::Z, because: because.to_owned() })
+    Some((pieces, bounds))
 }
 
 fn pieces_of_splats(splats: &Splats) -> Vec<Piece> {
@@ -68,7 +92,12 @@ fn pieces_of_splats(splats: &Splats) -> Vec<Piece> {
         let radius = splats.major_radius(i);
         let area = radius * radius;
         let usable = place.is_finite() && area.is_finite();
-        usable.then(|| Piece { place: *place, upright: f64::from(normal.z.abs()), area })
+        usable.then(|| Piece {
+            place: *place,
+            upright: f64::from(normal.z.abs()),
+            flat_along_y: f64::from(normal.y.abs()),
+            area,
+        })
     };
     splats.positions.iter().enumerate().filter_map(|(i, place)| piece(i, place)).collect()
 }
@@ -77,8 +106,9 @@ fn pieces_of_mesh(mesh: &Mesh) -> Vec<Piece> {
     let piece = |i: usize| {
         let [a, b, c] = mesh.corners(i)?;
         let normal = (b - a).cross(c - a);
-        let upright = normal.try_normalize()?.z.abs();
-        Some(Piece { place: (a + b + c) / 3.0, upright, area: 0.5 * normal.length() })
+        let unit = normal.try_normalize()?.abs();
+        let place = (a + b + c) / 3.0;
+        Some(Piece { place, upright: unit.z, flat_along_y: unit.y, area: 0.5 * normal.length() })
     };
     (0..mesh.triangles.len()).filter_map(piece).collect()
 }
@@ -102,18 +132,8 @@ fn stands_on_ground(pieces: &[Piece], bounds: &Bounds) -> bool {
         return false;
     }
     let height = |piece: &Piece| (piece.place.z - bounds.min.z) / extent.z;
-    let is_floor = |piece: &Piece| piece.upright > 0.94 && height(piece) < 0.15;
-    let cells_of = |part: &dyn Fn(&Piece) -> bool| {
-        let mut cells = [false; CELLS * CELLS];
-        for piece in pieces.iter().filter(|piece| part(piece)) {
-            let at = (piece.place - bounds.min) / extent * CELLS as f64;
-            let [column, row] = [at.x, at.y].map(|at| (at as usize).min(CELLS - 1));
-            if let Some(cell) = cells.get_mut(row * CELLS + column) {
-                *cell = true;
-            }
-        }
-        cells
-    };
+    let is_floor = |piece: &Piece| is_floor(piece, bounds);
+    let cells_of = |part: &dyn Fn(&Piece) -> bool| cells_of(pieces, bounds, part);
     let (floor, above) = (cells_of(&is_floor), cells_of(&|piece| height(piece) > 0.5));
     let covered = |cells: &[bool]| cells.iter().filter(|cell| **cell).count();
     let is_rim = |cell: &usize| [cell / CELLS, cell % CELLS].iter().any(|at| *at == 0 || *at == CELLS - 1);
@@ -123,7 +143,31 @@ fn stands_on_ground(pieces: &[Piece], bounds: &Bounds) -> bool {
         && 2 * covered(&above) < covered(&floor)
         && 4 * covered(&rim) < rim.len()
         && share(pieces, is_floor) >= 0.1
-        && share(pieces, |piece| piece.upright < 0.34) >= 0.15
+        && share(pieces, |piece| piece.upright < UPRIGHT) >= 0.15
+}
+
+/// Cosine of 20°, and sine.
+const LEVEL: f64 = 0.94;
+const UPRIGHT: f64 = 0.34;
+
+/// The share of the height that is the bottom.
+const LOW: f64 = 0.15;
+
+fn is_floor(piece: &Piece, bounds: &Bounds) -> bool {
+    piece.upright > LEVEL && piece.place.z - bounds.min.z < LOW * (bounds.max.z - bounds.min.z)
+}
+
+/// The cells of a grid over the ground that have something of this part.
+fn cells_of(pieces: &[Piece], bounds: &Bounds, part: &dyn Fn(&Piece) -> bool) -> [bool; CELLS * CELLS] {
+    let mut cells = [false; CELLS * CELLS];
+    for piece in pieces.iter().filter(|piece| part(piece)) {
+        let at = (piece.place - bounds.min) / (bounds.max - bounds.min) * CELLS as f64;
+        let [column, row] = [at.x, at.y].map(|at| (at as usize).min(CELLS - 1));
+        if let Some(cell) = cells.get_mut(row * CELLS + column) {
+            *cell = true;
+        }
+    }
+    cells
 }
 
 /// The share of the area in pieces of a kind.
@@ -133,100 +177,4 @@ fn share(pieces: &[Piece], kind: impl Fn(&Piece) -> bool) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{
-        geometry::seams::sphere,
-        scene::{Colors, MeshObject, Object},
-    };
-
-    /// Disks of radius 0.1 with these centers and normals.
-    fn scene(closed: bool, disks: impl Iterator<Item = (DVec3, Vec3)>) -> Scene {
-        let (positions, normals): (Vec<DVec3>, Vec<Vec3>) = disks.unzip();
-        let radii = vec![0.1; normals.len()];
-        let shapes = Shapes::Disks { normals, radii };
-        let splats = Splats::new(positions, shapes, Colors::unknown());
-        let object = Object { name: String::new(), splats, closed };
-        Scene { objects: vec![object], ..Scene::default() }
-    }
-
-    fn because(scene: &Scene) -> Option<String> {
-        up_of_shape(scene).map(|up| {
-            assert_eq!(up.direction, DVec3::Z);
-            up.because
-        })
-    }
-
-    fn square(side: u32) -> impl Iterator<Item = (f64, f64)> {
-        (0..side).flat_map(move |y| (0..side).map(move |x| (f64::from(x), f64::from(y))))
-    }
-
-    /// Hills of this height on a square of 40.
-    fn hills(height: f64) -> impl Iterator<Item = (DVec3, Vec3)> {
-        square(40).map(move |(x, y)| {
-            let z = height * (0.3 * x).sin() * (0.2 * y).cos();
-            (DVec3::new(x, y, z), Vec3::new(0.2, 0.1, 1.0))
-        })
-    }
-
-    #[test]
-    fn terrain_is_flat_and_open() {
-        assert_eq!(because(&scene(false, hills(2.0))).unwrap(), "it lies flat as ground does");
-        assert_eq!(because(&scene(true, hills(2.0))), None, "a closed thing");
-        assert_eq!(because(&scene(false, hills(0.0))), None, "a plane");
-        assert_eq!(because(&scene(false, hills(9.0))), None, "a head's half");
-        assert_eq!(because(&scene(false, hills(2.0).take(900))), None, "too few");
-        let other = hills(2.0).map(|(p, n)| (DVec3::new(p.x, p.z, -p.y), Vec3::new(n.x, n.z, -n.y)));
-        assert_eq!(because(&scene(false, other)), None, "terrain with y up");
-    }
-
-    #[test]
-    fn a_map_has_large_coordinates_and_low_heights() {
-        let moved = |by: DVec3| because(&scene(false, hills(30.0).map(move |(p, n)| (p + by, n))));
-        assert_eq!(
-            moved(DVec3::new(450_000.0, 5_400_000.0, 300.0)).unwrap(),
-            "its x and y are those of a map"
-        );
-        assert_eq!(moved(DVec3::new(450_000.0, 300.0, 5_400_000.0)), None);
-        assert_eq!(moved(DVec3::splat(450_000.0)), None);
-    }
-
-    /// A house of 12 by 12 by 10 on a floor of 40 by 40, which lies `wide` times as far.
-    fn house(wide: f64) -> Vec<(DVec3, Vec3)> {
-        let floor = square(40).map(|(x, y)| (DVec3::new(wide * (x - 20.0), wide * (y - 20.0), 0.0), Vec3::Z));
-        let walls = square(24).flat_map(|(along, z)| {
-            let (along, z) = (0.5 * along - 6.0, 0.5 * z.min(20.0));
-            [
-                (DVec3::new(along, 6.0, z), Vec3::Y),
-                (DVec3::new(along, -6.0, z), Vec3::NEG_Y),
-                (DVec3::new(6.0, along, z), Vec3::X),
-                (DVec3::new(-6.0, along, z), Vec3::NEG_X),
-            ]
-        });
-        floor.chain(walls).collect()
-    }
-
-    #[test]
-    fn a_house_stands_on_its_ground_and_a_box_on_nothing() {
-        let up = because(&scene(false, house(1.0).into_iter()));
-        assert_eq!(up.unwrap(), "it stands on a floor");
-        assert_eq!(
-            because(&scene(false, house(0.3).into_iter())),
-            None,
-            "a room, or a stage seen from the front"
-        );
-        let turned =
-            house(1.0).into_iter().map(|(p, n)| (DVec3::new(p.x, p.z, -p.y), Vec3::new(n.x, n.z, -n.y)));
-        assert_eq!(because(&scene(false, turned)), None, "with y up");
-        let medal = house(1.0).into_iter().filter(|(_, n)| *n == Vec3::Z);
-        assert_eq!(because(&scene(false, medal)), None, "no walls");
-    }
-
-    #[test]
-    fn a_ball_has_no_up() {
-        for closed in [false, true] {
-            let mesh = MeshObject { name: String::new(), mesh: sphere(5), closed };
-            assert_eq!(because(&Scene { meshes: vec![mesh], ..Scene::default() }), None);
-        }
-    }
-}
+mod tests;

@@ -5,7 +5,10 @@ use std::{collections::BTreeMap, fmt};
 use serde::Serialize;
 
 use super::{FrameTimes, Grid, ModelReport};
-use crate::{notes::Note, scene::Camera};
+use crate::{
+    notes::{Note, counted},
+    scene::Camera,
+};
 
 /// Everything that is needed to understand, repeat and compare a measurement.
 #[derive(Clone, Debug, Serialize)]
@@ -103,6 +106,8 @@ pub struct InputReport {
     pub dropped: usize,
     /// As what it is drawn: `splats`, `triangles` or `splats and triangles`.
     pub drawn_as: &'static str,
+    /// Why it is drawn as that, in words; empty where there is nothing to choose from.
+    pub because: String,
     /// What its file holds; `None` for what was made from none.
     pub model: Option<ModelReport>,
     /// What of it is not drawn as its file says it, and what was computed because its file does not say it.
@@ -138,7 +143,11 @@ impl From<&Camera> for CameraReport {
 impl fmt::Display for RunReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let DeviceReport { name, driver, api_version, .. } = &self.device;
-        writeln!(f, "{name}, {driver}, Vulkan {api_version}; {} splats", self.scene.splats)?;
+        writeln!(
+            f,
+            "{name}, {driver}, Vulkan {api_version}; {}",
+            counted(self.scene.splats as u64, "splats")
+        )?;
         let steps = Grid::of("", &self.steps)
             .column("before the frames", |step| format!("  {}", step.name))
             .column("seconds", |step| format!("{:.3}", step.secs));

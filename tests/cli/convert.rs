@@ -214,8 +214,8 @@ fn points_are_drawn_without_normals_and_radii() {
     rows.extend([rows[1999].clone(), "3 3 3 255 0 0\n".to_owned()]);
     folder.write("points.ply", &(header.replace("COUNT", &rows.len().to_string()) + &rows.concat()));
     let run = done(&folder, &["render", "points.ply", "-o", "points.png", "--size", "64x64"]);
-    let told = "points.ply: 2002 points: normals and radii found from 12 neighbors each; 1 duplicate merged, 1 isolated \
-        point left out\n";
+    let told = "points.ply: 2002 points: normals and radii found from 12 neighbors each, turned to one side; 1 duplicate \
+        merged, 1 isolated point left out\n";
     assert!(run.stdout.contains(told) || run.stderr.contains(told), "{}{}", run.stdout, run.stderr);
     let png = png(&folder.path("points.png"));
     let is_red = |x: u32, y: u32| png.at(x, y)[0] > 100 && png.at(x, y)[1] < 200;

@@ -5,7 +5,7 @@ use super::{
     program::{Folder, done, surfel},
 };
 
-const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n\
+pub const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n\
     f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 
 const SIZE: [&str; 2] = ["--size", "64x64"];
@@ -104,14 +104,14 @@ fn strict_refuses_what_is_not_drawn_as_its_file_says() {
             &folder,
             &[&[subcommand, "good.ply", "bad.ply", "--strict", "-o", "b.png"][..], &SIZE].concat(),
         );
-        let expected = "surfel: bad.ply: 1 splats whose normal is zero or not finite left out, and 1 more of that kind; expected \
+        let expected = "surfel: bad.ply: 1 splat whose normal is zero or not finite left out, and 1 more of that kind; expected \
             nothing of it with --strict\n";
         assert!(run.code == 1 && run.stderr.ends_with(expected), "{}", run.stderr);
         assert_eq!(folder.names(), before);
     }
     let run = surfel(&folder, &["convert", "bad.ply", "b.ply", "--strict"]);
     assert!(
-        run.code == 1 && run.stderr.starts_with("surfel: bad.ply: 1 splats whose normal"),
+        run.code == 1 && run.stderr.starts_with("surfel: bad.ply: 1 splat whose normal"),
         "{}",
         run.stderr
     );

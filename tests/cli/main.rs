@@ -29,6 +29,7 @@ mod report;
 mod scene_file;
 mod selftest;
 mod shown;
+mod told;
 
 use std::fs;
 

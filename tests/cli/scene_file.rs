@@ -50,9 +50,10 @@ fn a_scene_file_stands_beside_other_inputs() {
     let folder = folder();
     folder.write("scene.toml", "[[object]]\nbuiltin = \"sphere\"\nsplats = 500\nalpha = 0.5\n");
     let run = drawn(&folder, &["reference", "triangle.obj", "scene.toml", "--representation", "splats"]);
-    let said: Vec<&str> = run.stderr.lines().take(2).collect();
+    let said: Vec<&str> = run.stderr.lines().take(3).collect();
+    let told = "scene.toml: without --representation, as the keys of its objects say how they are drawn";
     let triangle = "triangle.obj: 3 vertices, 1 triangle: open, 3 boundary edges; normals and radii computed";
-    assert_eq!(said, [triangle, "built-in sphere: 500 disks, closed; transparent, alpha 0.5"]);
+    assert_eq!(said, [told, triangle, "built-in sphere: 500 disks, closed; transparent, alpha 0.5"]);
 }
 
 #[test]

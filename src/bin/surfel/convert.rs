@@ -12,7 +12,8 @@ use surfel::{
     compose::{sharpened, splats_kind},
     geometry::{sharp::SharpOptions, up_of_shape},
     levels_file::{self, LEAST_MEMORY, Written},
-    load::{LoadOptions, Model, SplatRows, file_name, load},
+    load::{Model, SplatRows, file_name, load},
+    notes::counted,
     report::InputReport,
     save,
     scene::{Object, Scene},
@@ -21,6 +22,7 @@ use surfel::{
 use crate::{
     allocator,
     console::{self, Bars},
+    inputs::ReadingArguments,
     outputs, parse,
     scene::{load_object, not_a_mesh, refuse_losses, resample_mesh},
 };
@@ -58,7 +60,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(Args)]
 #[command(long_about = HELP, after_help = EXAMPLES)]
 pub struct ConvertArguments {
-    /// A PLY file (splats, a mesh or points) or an OBJ file (a mesh or points)
+    /// A model or scan: any file that `surfel info` reads but a scene file, - for standard input
     #[arg(value_name = "INPUT")]
     input: PathBuf,
 
@@ -90,9 +92,8 @@ pub struct ConvertArguments {
     #[arg(long, value_name = "BYTES", value_parser = parse::bytes(LEAST_MEMORY), allow_hyphen_values = true)]
     memory: Option<u64>,
 
-    /// Fail where anything of the file is left out, merged, replaced, clamped or ignored
-    #[arg(long)]
-    strict: bool,
+    #[command(flatten)]
+    reading: ReadingArguments,
 }
 
 /// Runs the subcommand.
@@ -106,15 +107,15 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
         return convert_in_parts(arguments, rows, &bars);
     }
     let made = match arguments.resample {
-        Some(count) => resampled_file(&arguments.input, count, arguments.seed, &bars),
+        Some(count) => resampled_file(arguments, count, &bars),
         None if arguments.splats.is_some() || arguments.max_error.is_some() => {
             sharpened_file(arguments, &bars)
         }
-        None => load_object(&arguments.input, &bars),
+        None => load_object(&arguments.input, &arguments.reading.options(), &bars),
     };
     bars.clear();
     let (object, report, up) = made?;
-    if arguments.strict {
+    if arguments.reading.strict {
         refuse_losses(&report)?;
     }
     let summary = report.summary;
@@ -127,9 +128,9 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     let kind = splats_kind(&object.splats);
     let positions = if written.double_positions { ", 64-bit positions" } else { "" };
     let closed = if object.closed { ", marked as closed" } else { "" };
-    let (count, bytes) = (object.splats.len(), written.bytes);
+    let (count, bytes) = (counted(object.splats.len() as u64, kind), written.bytes);
     let output = arguments.output.display();
-    console::print(&format!("{summary} -> {output}: {count} {kind}{positions}{closed}, {bytes} bytes"))
+    console::print(&format!("{summary} -> {output}: {count}{positions}{closed}, {bytes} bytes"))
 }
 
 /// Whether a file is to have levels of detail, by its name.
@@ -157,7 +158,7 @@ fn larger_than_memory(arguments: &ConvertArguments) -> Result<Option<SplatRows>>
         _ => {}
     }
     let rows = if arguments.resample.is_none() && input.is_file() {
-        SplatRows::open(input, &LoadOptions::default())?
+        SplatRows::open(input, &arguments.reading.options())?
     } else {
         None
     };
@@ -188,16 +189,18 @@ fn convert_in_parts(arguments: &ConvertArguments, rows: SplatRows, bars: &Bars) 
     let name = file_name(&arguments.input);
     let (count, memory) = (rows.count(), arguments.memory.unwrap_or(DEFAULT_MEMORY));
     allocator::begin_peak();
-    let written = levels_file::convert_splats(rows, &arguments.output, memory, arguments.strict, bars);
+    let written =
+        levels_file::convert_splats(rows, &arguments.output, memory, arguments.reading.strict, bars);
     bars.clear();
     let (written, defects) = written?;
     let peak_bytes = allocator::peak_bytes();
     let left_out = match defects.total() {
         0 => String::new(),
-        total => format!("; {total} splats left out: {defects}"),
+        total => format!("; {} left out: {defects}", counted(total as u64, "splats")),
     };
     let parts = format!(", built in {} parts within {peak_bytes} bytes of memory", written.parts);
-    say_written(&format!("{name}: {count} splats{left_out}"), &arguments.output, &written, &parts)
+    let count = counted(count, "splats");
+    say_written(&format!("{name}: {count}{left_out}"), &arguments.output, &written, &parts)
 }
 
 /// Writes splats with levels of detail.
@@ -231,17 +234,17 @@ fn say_written(summary: &str, output: &Path, written: &Written, how: &str) -> Re
 
 /// Splats spread evenly over the mesh in a file, and what was done.
 fn resampled_file(
-    path: &Path,
+    arguments: &ConvertArguments,
     count: u64,
-    seed: u64,
     bars: &Bars,
 ) -> Result<(Object, InputReport, Option<DVec3>)> {
-    let loaded = load(path, &LoadOptions::default(), bars)?;
+    let path = &arguments.input;
+    let loaded = load(path, &arguments.reading.options(), bars)?;
     let mesh = match loaded.model {
         Model::Mesh(mesh) => mesh,
         other => return Err(not_a_mesh(path, &other)),
     };
-    let (object, mut report) = resample_mesh(&mesh, path, count, seed, bars)?;
+    let (object, mut report) = resample_mesh(&mesh, path, count, arguments.seed, bars)?;
     report.notes = [loaded.notes, report.notes].concat();
     Ok((object, report, loaded.up))
 }
@@ -249,7 +252,7 @@ fn resampled_file(
 /// Splats of a simplified mesh, clipped at its ridges, and what was done.
 fn sharpened_file(arguments: &ConvertArguments, bars: &Bars) -> Result<(Object, InputReport, Option<DVec3>)> {
     let path = &arguments.input;
-    let loaded = load(path, &LoadOptions::default(), bars)?;
+    let loaded = load(path, &arguments.reading.options(), bars)?;
     let mesh = match loaded.model {
         Model::Mesh(mesh) => mesh,
         other => return Err(not_a_mesh(path, &other)),

@@ -1,31 +1,29 @@
 //! Why a picture shows nothing, and what to try: nobody should look at a white page and wonder.
 
 use glam::DVec3;
-use surfel::scene::{Ball, Camera};
+use surfel::scene::{Ball, Camera, ClipBox, ClipPlanes, Settings};
 
-/// What to say of a picture that is all background (sRGB; `None`: transparent); `None` where something is seen.
-pub fn hint(
-    pixels: &[[u8; 4]],
-    background: Option<[f32; 3]>,
-    camera: &Camera,
-    ball: &Ball,
-) -> Option<String> {
-    let is_empty = |pixel: &[u8; 4]| match background {
+/// What to say of a picture that is all background; `None` where something is seen.
+pub fn hint(pixels: &[[u8; 4]], settings: &Settings, camera: &Camera, ball: &Ball) -> Option<String> {
+    let is_empty = |pixel: &[u8; 4]| match settings.background {
         None => pixel[3] == 0,
         Some(color) => {
             pixel.iter().zip(color).all(|(byte, value)| (f32::from(*byte) - 255.0 * value).abs() <= 1.0)
         }
     };
-    pixels.iter().all(is_empty).then(|| format!("nothing is seen in it: {}", reason(camera, ball)))
+    pixels.iter().all(is_empty).then(|| format!("nothing is seen in it: {}", reason(settings, camera, ball)))
 }
 
-fn reason(camera: &Camera, ball: &Ball) -> String {
+fn reason(settings: &Settings, camera: &Camera, ball: &Ball) -> String {
     let center = camera.view_from_world().point(ball.center);
+    if let Some(near) = camera.near.filter(|near| *near > (center.z + ball.radius).max(0.0)) {
+        return format!("all of the scene is nearer than --near {near}; try without --near");
+    }
     let [distance, across] = [center.length(), center.truncate().length()];
     // Without the sign of what rounds to 0.
     let [x, y, z] = (ball.center * 1e4).round().to_array().map(|value| value / 1e4 + 0.0);
     if camera.is_orthographic() {
-        return of_parallel_rays(camera, ball, center, [x, y, z]);
+        return of_parallel_rays(settings, camera, ball, center, [x, y, z]);
     }
     let half_fov_deg = 0.5 * camera.fov_y_rad.to_degrees();
     let to_axis_deg = across.atan2(center.z).to_degrees();
@@ -41,7 +39,26 @@ fn reason(camera: &Camera, ball: &Ball) -> String {
         () if reach_deg < half_fov_deg / 1000.0 => format!(
             "the scene is {distance:.3e} away and smaller than a pixel; try without --eye, or a smaller --fov"
         ),
-        () => FACES_AWAY.to_owned(),
+        () => not_seen(settings),
+    }
+}
+
+/// Of a scene that is in the view.
+fn not_seen(settings: &Settings) -> String {
+    let given = [
+        ("--clip-box", settings.clip_box != ClipBox::default()),
+        ("--clip-plane", settings.clip_planes != ClipPlanes::default()),
+    ];
+    let given: Vec<&str> =
+        given.into_iter().filter(|(_, is_given)| *is_given).map(|(option, _)| option).collect();
+    match given.is_empty() {
+        true => FACES_AWAY.to_owned(),
+        false => {
+            let options = given.join(" and ");
+            format!(
+                "{options} may leave nothing of what the camera looks at; try without, or with larger ones"
+            )
+        }
     }
 }
 
@@ -49,7 +66,13 @@ const FACES_AWAY: &str = "what the camera looks at faces away, is seen edge-on, 
                           another --eye, or --shading normals";
 
 /// `center`: the scene's middle in view space.
-fn of_parallel_rays(camera: &Camera, ball: &Ball, center: DVec3, [x, y, z]: [f64; 3]) -> String {
+fn of_parallel_rays(
+    settings: &Settings,
+    camera: &Camera,
+    ball: &Ball,
+    center: DVec3,
+    [x, y, z]: [f64; 3],
+) -> String {
     let height = camera.orthographic_height.unwrap_or_default();
     match () {
         () if center.z + ball.radius < camera.near() => {
@@ -62,7 +85,7 @@ fn of_parallel_rays(camera: &Camera, ball: &Ball, center: DVec3, [x, y, z]: [f64
         () if ball.radius < height / 2000.0 => {
             "the scene is smaller than a pixel; try --orthographic fit".to_owned()
         }
-        () => FACES_AWAY.to_owned(),
+        () => not_seen(settings),
     }
 }
 
@@ -72,7 +95,8 @@ mod tests {
 
     fn hint_of(eye: DVec3, target: DVec3) -> String {
         let camera = Camera { eye, target, up: DVec3::Y, fov_y_rad: 0.8, ..Camera::default() };
-        hint(&[[255; 4]; 9], Some([1.0; 3]), &camera, &Ball { center: DVec3::ZERO, radius: 1.0 }).unwrap()
+        hint(&[[255; 4]; 9], &Settings::default(), &camera, &Ball { center: DVec3::ZERO, radius: 1.0 })
+            .unwrap()
     }
 
     #[test]
@@ -84,7 +108,8 @@ mod tests {
         assert!(hint_of(far, DVec3::ZERO).contains("edge-on"));
         let parallel = |eye: DVec3, target: DVec3, height: f64| {
             let camera = Camera { eye, target, orthographic_height: Some(height), ..Camera::default() };
-            hint(&[[255; 4]; 9], Some([1.0; 3]), &camera, &Ball { center: DVec3::ZERO, radius: 1.0 }).unwrap()
+            hint(&[[255; 4]; 9], &Settings::default(), &camera, &Ball { center: DVec3::ZERO, radius: 1.0 })
+                .unwrap()
         };
         assert!(parallel(far, 2.0 * far, 3.0).contains("behind the eye"));
         assert!(parallel(far + 9.0 * DVec3::X, 9.0 * DVec3::X, 3.0).contains("beside what the camera shows"));
@@ -93,8 +118,34 @@ mod tests {
         let camera =
             Camera { eye: far, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: 0.8, ..Camera::default() };
         let ball = Ball { center: DVec3::ZERO, radius: 1.0 };
-        let seen = |pixels: &[[u8; 4]], background| hint(pixels, background, &camera, &ball).is_none();
+        let seen = |pixels: &[[u8; 4]], background| {
+            hint(pixels, &Settings { background, ..Settings::default() }, &camera, &ball).is_none()
+        };
         assert!(seen(&[[255; 4], [200, 255, 255, 255]], Some([1.0; 3])) && seen(&[[0, 0, 0, 1]], None));
         assert!(!seen(&[[9, 9, 9, 0]], None));
+    }
+
+    #[test]
+    fn what_cuts_the_scene_away_is_named() {
+        let eye = DVec3::new(0.0, 0.0, 5.0);
+        let ball = Ball { center: DVec3::ZERO, radius: 1.0 };
+        let of =
+            |camera: &Camera, settings: &Settings| hint(&[[255; 4]; 9], settings, camera, &ball).unwrap();
+        let settings = Settings::default();
+        for orthographic_height in [None, Some(3.0)] {
+            let near = |near: f64| Camera {
+                eye,
+                target: DVec3::ZERO,
+                near: Some(near),
+                orthographic_height,
+                ..Camera::default()
+            };
+            assert!(of(&near(6.5), &settings).contains("nearer than --near 6.5"));
+            assert!(of(&near(5.5), &settings).contains("edge-on"));
+            let cut = Settings { clip_planes: ClipPlanes(vec![[0.0, 0.0, 1.0, 9.0]]), ..settings.clone() };
+            assert!(of(&near(0.1), &cut).contains("--clip-plane may leave nothing"));
+            let cut = Settings { clip_box: ClipBox(Some([[8.0; 3], [9.0; 3]])), ..cut };
+            assert!(of(&near(0.1), &cut).contains("--clip-box and --clip-plane may leave nothing"));
+        }
     }
 }

@@ -2,7 +2,10 @@
 
 use std::fmt::Write as _;
 
-use surfel::renderer::{ExplainedChunk, ExplainedMesh, Explanation};
+use surfel::{
+    notes::counted,
+    renderer::{ExplainedChunk, ExplainedMesh, Explanation},
+};
 
 /// The whole explanation. `listed`: how many splats are drawn of levels of detail, where that was counted.
 pub fn text(explanation: &Explanation, listed: Option<u64>) -> String {
@@ -84,7 +87,8 @@ fn words(chunk: &ExplainedChunk, cap_px: f32) -> String {
         (true, _) => "some may reach the near plane: large ones listed, drawn as quads".to_owned(),
     };
     let layers = if chunk.transparent { ", transparent: drawn in layers" } else { "" };
-    format!("{} {kind}{nodes}{fine}, {color}, {closed}{layers}, {} bytes; {size}", chunk.splats, chunk.bytes)
+    let splats = counted(chunk.splats.into(), kind);
+    format!("{splats}{nodes}{fine}, {color}, {closed}{layers}, {} bytes; {size}", chunk.bytes)
 }
 
 fn mesh_words(mesh: &ExplainedMesh) -> String {
@@ -92,5 +96,7 @@ fn mesh_words(mesh: &ExplainedMesh) -> String {
     let layers = if mesh.transparent { ", transparent: drawn in layers" } else { "" };
     let culled = if mesh.culled { "what faces away is not drawn" } else { "drawn from both sides" };
     let ExplainedMesh { triangles, vertices, bytes, .. } = mesh;
-    format!("{triangles} triangles, {vertices} vertices, {closed}{layers}, {bytes} bytes; {culled}")
+    let (triangles, vertices) =
+        (counted((*triangles).into(), "triangles"), counted((*vertices).into(), "vertices"));
+    format!("{triangles}, {vertices}, {closed}{layers}, {bytes} bytes; {culled}")
 }

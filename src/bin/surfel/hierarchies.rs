@@ -5,6 +5,7 @@ use surfel::{
     Result,
     geometry::FoundUp,
     levels_file::{LevelsFile, PageView, VERSION, is_levels_file},
+    notes::counted,
     passes::count_drawn,
     report::{InputReport, ModelReport},
     scene::{Ball, Budget, Camera, LeveledObject, Lod, Scene, Settings},
@@ -106,6 +107,7 @@ fn report(file: &LevelsFile) -> InputReport {
         splats: usize::try_from(splats).unwrap_or(usize::MAX),
         dropped: 0,
         drawn_as: "splats",
+        because: "its file holds splats".to_owned(),
         model: Some(ModelReport {
             format: format!("hierarchy of splats, version {VERSION}"),
             holds: "splats",
@@ -215,8 +217,11 @@ fn load_for(
         let (splats, nodes) = (chosen.object.leaves.len(), chosen.object.nodes.len());
         let all = file.header().pages;
         lines.push(format!(
-            "{name}: read {} of {all} pages, {} bytes: {splats} splats and {nodes} nodes",
-            chosen.pages, chosen.bytes
+            "{name}: read {} of {all} pages, {} bytes: {} and {}",
+            chosen.pages,
+            chosen.bytes,
+            counted(splats as u64, "splats"),
+            counted(nodes as u64, "nodes")
         ));
         // A process may have no page of a file.
         if splats + nodes > 0 {

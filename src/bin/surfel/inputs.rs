@@ -36,9 +36,16 @@ pub struct InputArguments {
     #[arg(value_parser = parse::whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
     seed: Option<u64>,
 
+    #[command(flatten)]
+    reading: ReadingArguments,
+}
+
+/// How files are read.
+#[derive(Args)]
+pub struct ReadingArguments {
     /// Fail where anything of a file is left out, merged, replaced, clamped or ignored
     #[arg(long)]
-    strict: bool,
+    pub strict: bool,
 
     /// The columns of rows of numbers, such as x,y,z,-,r,g,b; all: x y z r g b nx ny nz i (intensity) and - [default: as the file tells]
     #[arg(long, value_name = "LIST", value_parser = str::parse::<Columns>)]
@@ -47,6 +54,17 @@ pub struct InputArguments {
     /// Scene files and models may name files outside of their folder
     #[arg(long)]
     allow_outside: bool,
+}
+
+impl ReadingArguments {
+    /// The options as they were given.
+    pub fn options(&self) -> LoadOptions {
+        LoadOptions {
+            allow_outside: self.allow_outside,
+            columns: self.columns.clone(),
+            ..LoadOptions::default()
+        }
+    }
 }
 
 /// The primitives of an input.
@@ -71,6 +89,8 @@ pub struct Inputs {
     pub representation: Representation,
     /// New splats of meshes that are no scene files.
     pub samples: Option<Samples>,
+    /// Options that the user gave, and that mean nothing for scene files.
+    pub not_for_scene_files: Vec<&'static str>,
     /// How files are read.
     pub options: LoadOptions,
     /// Fail where anything of a file is not drawn as it says.
@@ -96,12 +116,9 @@ impl InputArguments {
                 Primitives::Hybrid => Representation::Hybrid { polygons: None, sample_edges: true },
             },
             samples: self.resample.map(|count| Samples { count, seed: self.seed.unwrap_or(0) }),
-            options: LoadOptions {
-                allow_outside: self.allow_outside,
-                columns: self.columns.clone(),
-                ..LoadOptions::default()
-            },
-            strict: self.strict,
+            not_for_scene_files: self.not_for_scene_files(),
+            options: self.reading.options(),
+            strict: self.reading.strict,
         }
     }
 
@@ -118,8 +135,17 @@ impl InputArguments {
     pub fn has_options(&self) -> bool {
         self.representation != Primitives::Auto
             || self.resample.is_some()
-            || self.strict
-            || self.columns.is_some()
-            || self.allow_outside
+            || self.reading.strict
+            || self.reading.columns.is_some()
+            || self.reading.allow_outside
+    }
+
+    /// The options that were given and of which scene files have keys of their own.
+    fn not_for_scene_files(&self) -> Vec<&'static str> {
+        let given = [
+            ("--representation", self.representation != Primitives::Auto),
+            ("--resample", self.resample.is_some()),
+        ];
+        given.into_iter().filter(|(_, is_given)| *is_given).map(|(option, _)| option).collect()
     }
 }

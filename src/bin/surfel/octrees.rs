@@ -8,6 +8,7 @@ use surfel::{
     compose::make_loaded,
     levels_file::PageView,
     load::{NodeKey, ObjectDescription, PointOctree, file_name, is_point_octree},
+    notes::counted,
     report::{InputReport, ModelReport},
     scene::{Budget, Camera, Lod, Scene, Settings},
 };
@@ -160,6 +161,7 @@ fn report(octree: &PointOctree) -> InputReport {
         splats: count,
         dropped: 0,
         drawn_as: "splats",
+        because: "points become disks that close their surface".to_owned(),
         model: Some(ModelReport {
             format: octree.format().to_owned(),
             holds: "points",
@@ -173,7 +175,11 @@ fn report(octree: &PointOctree) -> InputReport {
             up: Some([0.0, 0.0, 1.0]),
         }),
         notes: Vec::new(),
-        summary: format!("{name}: {count} points in an octree, {} apart at its root", octree.spacing()),
+        summary: format!(
+            "{name}: {} in an octree, {} apart at its root",
+            counted(octree.points(), "points"),
+            octree.spacing()
+        ),
         name,
     }
 }

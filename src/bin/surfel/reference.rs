@@ -67,7 +67,8 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
         PictureFormat::Exr => Colors::Linear(&dump.color),
     };
     pictures::write_picture(&output, format, dump.size_px, background.is_none(), colors)?;
-    let hint = || emptiness::hint(&bytes, background, &camera, &loaded.ball);
+    let shown = Settings { background, ..settings.clone() };
+    let hint = || emptiness::hint(&bytes, &shown, &camera, &loaded.ball);
     if let Some(hint) = crop.is_none().then(hint).flatten() {
         console::say(&hint);
     }

@@ -20,6 +20,7 @@ use crate::{
     inputs::INPUTS,
     json::{to_json, write_json},
     measure::{self, View},
+    origin,
     outputs::{self, PictureFormat},
     parse,
     pick::{PickArguments, PickReport},
@@ -203,6 +204,7 @@ fn load(
 ) -> Result<(Loaded, Settings)> {
     let picture = &arguments.picture;
     let mut loaded = load_scene_by_view(&picture.input.inputs(), bars)?;
+    origin::tell(&loaded.scene, &loaded.ball);
     picture.light(&mut loaded.scene);
     // What belongs to no scene was checked before it was loaded.
     let settings =
@@ -250,7 +252,7 @@ fn write(
     let drawn = drawing::draw(headless, &picture.encoding(), view, crop, *format)?;
     let transparent = background.is_none();
     pictures::write_picture(output, *format, drawn.size_px, transparent, drawn.colors(*format))?;
-    let hint = || emptiness::hint(&drawn.bytes, background, view.camera, ball);
+    let hint = || emptiness::hint(&drawn.bytes, view.settings, view.camera, ball);
     if let Some(hint) = crop.is_none().then(hint).flatten() {
         console::say(&hint);
     }

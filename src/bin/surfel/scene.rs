@@ -19,7 +19,7 @@ use surfel::{
 };
 
 use crate::{
-    console::{Bars, Repeated},
+    console::{self, Bars, Repeated},
     inputs::Inputs,
     octrees::Octrees,
     up,
@@ -117,10 +117,14 @@ pub fn upload(headless: &Headless, scene: &Scene, bars: &Bars) -> Result<Prepare
 }
 
 /// The splats of one input that is no scene file, without those that can't be drawn, and the direction that is up if its file tells one.
-pub fn load_object(path: &Path, bars: &Bars) -> Result<(Object, InputReport, Option<DVec3>)> {
+pub fn load_object(
+    path: &Path,
+    options: &LoadOptions,
+    bars: &Bars,
+) -> Result<(Object, InputReport, Option<DVec3>)> {
     let representation = Representation::Splats;
     let object = ObjectDescription { representation, ..ObjectDescription::of_file(path) };
-    let built = make(&object, &LoadOptions::default(), bars);
+    let built = make(&object, options, bars);
     bars.clear();
     let built = built?;
     let splats = built.splats.ok_or_else(|| Error::input(path, "", "has no splat"))?;
@@ -193,6 +197,15 @@ fn describe(inputs: &Inputs) -> Result<Described> {
         }
         (true, ..) => described.objects.push(ObjectDescription::of_built_in(BuiltIn::Relief)),
         _ => {}
+    }
+    if let (Some(file), [first, others @ ..]) =
+        (inputs.files.iter().find(|file| is_scene_file(file)), &inputs.not_for_scene_files[..])
+    {
+        let options = others.iter().fold((*first).to_owned(), |all, other| format!("{all} and {other}"));
+        console::say(&format!(
+            "{}: without {options}, as the keys of its objects say how they are drawn",
+            file_name(file)
+        ));
     }
     for path in &inputs.files {
         if !is_scene_file(path) {

@@ -22,8 +22,8 @@ clip_box, clip_planes      as the options: six numbers; arrays of four
   color = [1, 1, 1]
   intensity = 1            multiplies the color as linear light, at least 0
 [[object]]                 at least one, at most 1024
-  file                     PLY or OBJ, in the scene file's folder or below, links followed
-                           (--allow-outside: anywhere); or
+  file                     any model or scan that `surfel info` reads, in the scene file's folder
+                           or below, links followed (--allow-outside: anywhere); or
   builtin                  \"relief\", \"sphere\" (of radius 1) or \"checkerboard\"
   splats                   of a builtin; 150000, 20000 and 10000 of these; a hybrid has a share
                            for the area of its splats

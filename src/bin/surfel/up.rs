@@ -49,6 +49,7 @@ fn word(direction: DVec3) -> String {
 /// What the first of the files says that say something; it is told where another says something else.
 pub fn of(files: Vec<(DVec3, String)>) -> Option<FoundUp> {
     let (direction, name) = files.first()?;
+    let name = if name == "-" { "standard input" } else { name };
     if let Some((other, of)) = files.iter().find(|(other, _)| other.distance(*direction) > 1e-3) {
         let [first, second] = [*direction, *other].map(word);
         console::say(&format!(
@@ -56,6 +57,11 @@ pub fn of(files: Vec<(DVec3, String)>) -> Option<FoundUp> {
         ));
     }
     Some(FoundUp { direction: *direction, because: format!("{name} says so") })
+}
+
+/// Tells that nothing was found of what may well have z up.
+pub fn doubt() {
+    console::say("up is +y, since nothing says otherwise; --up z if it lies on its back");
 }
 
 /// Tells what was found, unless it is what would be taken anyway.
@@ -89,5 +95,7 @@ mod tests {
         let found = of(files.to_vec()).unwrap();
         assert_eq!((found.direction, found.because.as_str()), (DVec3::Z, "a.las says so"));
         assert_eq!(of(Vec::new()), None);
+        let piped = of(vec![(DVec3::Z, "-".to_owned())]).unwrap();
+        assert_eq!(piped.because, "standard input says so");
     }
 }

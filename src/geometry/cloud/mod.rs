@@ -33,7 +33,7 @@ use merge::{Merged, merge};
 use plane::{MOST_NEIGHBORS, NEIGHBORS};
 use reach::Cells;
 
-pub use report::CloudReport;
+pub use report::{CloudReport, Sides};
 
 /// So many points are done between two progress messages.
 const BATCH: usize = 1 << 16;
@@ -195,11 +195,11 @@ impl Cloud {
         report.noisy = coarse.is_some();
         report.normals_from_file = given.iter().filter(|given| **given).count();
         (self.neighbors, self.spreads, self.normals) = (neighbors, spreads, normals);
-        self.choose_sides(points, &given, report);
+        report.sides = self.choose_sides(points, &given, report.normals_from_file);
     }
 
     /// The sides of normals that are not the file's.
-    fn choose_sides(&mut self, points: &Points, given: &[bool], report: &CloudReport) {
+    fn choose_sides(&mut self, points: &Points, given: &[bool], of_file: usize) -> Sides {
         if !points.viewpoints.is_empty() {
             let origin = points.positions.first().copied().unwrap_or_default();
             let views = &points.viewpoints;
@@ -211,10 +211,12 @@ impl Cloud {
                     self.normals[place] = -self.normals[place];
                 }
             }
-        } else if report.normals_from_file == 0 {
+            Sides::TowardScanner
+        } else if of_file == 0 {
             let positions: Vec<DVec3> = self.tree.points().iter().map(|point| point.position).collect();
             let areas: Vec<f64> = self.spreads.iter().map(|spread| spread * spread).collect();
             orient::orient(&positions, &self.neighbors, &areas, &mut self.normals);
+            Sides::One
         } else {
             // A few lack theirs: as most of their neighbors.
             for place in (0..given.len()).filter(|&place| !given[place]) {
@@ -224,6 +226,7 @@ impl Cloud {
                     self.normals[place] = -self.normals[place];
                 }
             }
+            Sides::AsNeighbors
         }
     }
 

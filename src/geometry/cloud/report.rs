@@ -5,6 +5,29 @@ use std::fmt;
 use super::plane::{MOST_NEIGHBORS, NEIGHBORS};
 use crate::notes::{Deed, Note};
 
+/// How the sides of normals were chosen that are not the file's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sides {
+    /// Along a spanning tree, so that neighbors agree.
+    #[default]
+    One,
+    /// Toward the place from which the file says that the points were seen.
+    TowardScanner,
+    /// As most of the neighbors whose normals are the file's.
+    AsNeighbors,
+}
+
+impl Sides {
+    /// Where normals were turned, in words.
+    fn words(self) -> &'static str {
+        match self {
+            Self::One => "to one side",
+            Self::TowardScanner => "toward the scanner",
+            Self::AsNeighbors => "as their neighbors",
+        }
+    }
+}
+
 /// The facts found on the way from points to splats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CloudReport {
@@ -20,6 +43,8 @@ pub struct CloudReport {
     pub noisy: bool,
     /// Points whose normal was taken from the file.
     pub normals_from_file: usize,
+    /// The sides of the other normals.
+    pub sides: Sides,
     /// Points whose radius was taken from the file.
     pub radii_from_file: usize,
     /// Disks over 4 times as large as the median of those around them, which they got instead.
@@ -30,6 +55,7 @@ impl CloudReport {
     /// What of it is not drawn as the file says it, and what was computed.
     pub fn notes(&self) -> Vec<Note> {
         let splats = self.points - self.not_finite - self.duplicates - self.isolated;
+        let computed = splats.saturating_sub(self.normals_from_file);
         let notes = [
             Note::of(Deed::Merged, self.duplicates, "points at the place of another"),
             Note::of(Deed::Dropped, self.isolated, "isolated points"),
@@ -39,7 +65,8 @@ impl CloudReport {
                 self.limited,
                 "radii as those around them, in place of far larger ones,",
             ),
-            Note::of(Deed::Computed, splats.saturating_sub(self.normals_from_file), "normals"),
+            Note::of(Deed::Computed, computed, "normals"),
+            Note::of(Deed::Turned, computed, &format!("normals, {},", self.sides.words())),
             Note::of(Deed::Computed, splats.saturating_sub(self.radii_from_file), "radii"),
         ];
         notes.into_iter().flatten().collect()
@@ -57,9 +84,13 @@ impl fmt::Display for CloudReport {
         let neighbors = if self.noisy { MOST_NEIGHBORS } else { NEIGHBORS };
         let number =
             |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
+        let turned = match self.normals_from_file >= splats {
+            true => String::new(),
+            false => format!(", turned {}", self.sides.words()),
+        };
         write!(
             f,
-            "{}: {found} found from {neighbors} neighbors each",
+            "{}: {found} found from {neighbors} neighbors each{turned}",
             number(self.points, "point", "points")
         )?;
         let parts = [

@@ -216,8 +216,8 @@ fn isolated_points_and_duplicates_are_left_out_and_told() {
     positions.extend([positions[7], positions[9], positions[7]]);
     positions.extend([DVec3::splat(3.0), DVec3::new(-5.0, 0.0, 0.0), DVec3::NAN]);
     let (splats, report) = splats_from_points(points(positions.clone()), &());
-    let expected = "5006 points: normals and radii found from 12 neighbors each; 3 duplicates merged, 2 isolated points \
-        left out, 1 point not finite left out";
+    let expected = "5006 points: normals and radii found from 12 neighbors each, turned to one side; 3 duplicates merged, 2 \
+        isolated points left out, 1 point not finite left out";
     assert_eq!(report.to_string(), expected);
     assert_eq!(splats.positions, positions[..5000]);
 }

@@ -32,6 +32,7 @@ use crate::{
     },
     load::{SplatRows, file_name},
     math::random::SplitMix,
+    notes::counted,
     progress::Progress,
     save,
     scene::{Bounds, Colors, DefectCounts, Object, Scene, Shapes, Splats},
@@ -91,8 +92,8 @@ pub fn convert_splats(
     };
     if strict && survey.defects.total() > 0 {
         let problem = format!(
-            "{} splats left out: {}; expected none with --strict",
-            survey.defects.total(),
+            "{} left out: {}; expected none with --strict",
+            counted(survey.defects.total() as u64, "splats"),
             survey.defects
         );
         return Err(Error::input(rows.path(), "", problem));

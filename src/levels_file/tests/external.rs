@@ -115,7 +115,7 @@ fn defects_are_left_out_or_refused() {
     save::splats(&ply, &object.splats, false, &()).unwrap();
     let open = || SplatRows::open(&ply, &LoadOptions::default()).unwrap().unwrap();
     let refused = convert_splats(open(), &path, LEAST_MEMORY, true, &()).unwrap_err().to_string();
-    assert!(refused.contains("1 splats left out: 1 position not finite; expected none"), "{refused}");
+    assert!(refused.contains("1 splat left out: 1 position not finite; expected none"), "{refused}");
     let (written, defects) = convert_splats(open(), &path, LEAST_MEMORY, false, &()).unwrap();
     assert_eq!((written.header.splats, defects.total(), written.parts), (999, 1, 1));
     assert_eq!(loaded(&fs::read(&path).unwrap()).unwrap().object.leaves.len(), 999);

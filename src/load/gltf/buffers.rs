@@ -123,9 +123,13 @@ impl<'a> Buffers<'a> {
         beside::find(folder, &decoded, self.input.options.allow_outside).map_err(|refusal| {
             let problem = match refusal {
                 Refusal::Missing(_, e) => format!("'{name}': cannot read: {e}"),
-                Refusal::Rooted => format!("'{name}'; expected a path relative to the file's folder"),
+                Refusal::Rooted => {
+                    format!("'{name}'; expected a path relative to the file's folder, or --allow-outside")
+                }
                 Refusal::Outside => {
-                    format!("'{name}' is outside of the file's folder; expected it there or below")
+                    format!(
+                    "'{name}' is outside of the file's folder; expected it there or below, or --allow-outside"
+                )
                 }
             };
             self.fault(i, problem)

@@ -80,7 +80,7 @@ fn text_and_glb_are_the_same_mesh_in_place_with_linear_colors() {
             (loaded.format.as_str(), loaded.up, loaded.metres_per_unit),
             (format, Some(DVec3::Y), Some(1.0))
         );
-        assert_eq!(notes(&loaded), ["1 materials' textures, which are not supported, ignored"]);
+        assert_eq!(notes(&loaded), ["1 material's texture, which is not supported, ignored"]);
         let mesh = mesh(loaded);
         assert_eq!(mesh.triangles, [[0, 1, 2], [1, 3, 2]]);
         assert_eq!(mesh.positions[0], DVec3::new(4_600_000.000_123_456, 0.0, 300.0));
@@ -111,7 +111,7 @@ fn all_modes_are_triangles_or_points() {
     assert_eq!(mesh(of_mode(5)).triangles, [[0, 1, 2], [2, 1, 3]]);
     assert_eq!(mesh(of_mode(6)).triangles, [[0, 1, 2], [0, 2, 3]]);
     let list = of_mode(4);
-    assert_eq!(notes(&list)[0], "1 corners that are no whole triangle left out");
+    assert_eq!(notes(&list)[0], "1 corner that is no whole triangle left out");
     assert!(matches!(mesh(list).colors, Colors::Uniform(_)));
     let points =
         loaded(&with_data(node, &ALL.replace("}", r#", "mode": 0}"#).replacen(r#", "mode": 0}"#, "}", 1)));
@@ -119,12 +119,12 @@ fn all_modes_are_triangles_or_points() {
     assert_eq!((positions.len(), normals.map(|n| n.len())), (6, Some(6)));
     assert_eq!(colors.get(3), Some([0.0, 1.0, 0.0, 1.0]));
     let lines = of_mode(3);
-    assert_eq!(notes(&lines)[0], "1 primitives of lines left out");
+    assert_eq!(notes(&lines)[0], "1 primitive of lines left out");
     let blended = ALL.replace(r#""material": 0"#, r#""material": 1"#);
     assert_eq!(mesh(loaded(&with_data(node, &blended))).colors.get(0), Some([1.0, 0.0, 0.2, 0.5]));
     let bare = format!(r#"{ALL}, {{"attributes": {{"POSITION": 0}}, "indices": 3}}"#);
     let both = loaded(&with_data(node, &bare));
-    assert_eq!(notes(&both)[0], "1 primitives without normals, so that those of all are replaced");
+    assert_eq!(notes(&both)[0], "1 primitive without normals, so that those of all are replaced");
     assert!(mesh(both).normals.is_none());
     let twice = mesh(loaded(&with_data(node, &format!("{ALL}, {ALL}"))));
     assert_eq!((twice.positions.len(), twice.triangles.len()), (4, 4));
@@ -213,7 +213,8 @@ fn other_files_are_read_from_the_folder_and_not_from_outside() {
             .map_err(|e| e.to_string().replace(&format!("{}: ", path.display()), ""))
     };
     assert_eq!(try_uri("a%20b/data.bin", false).unwrap().positions.len(), 4);
-    let outside = "buffer 0: '../data.bin' is outside of the file's folder; expected it there or below";
+    let outside = "buffer 0: '../data.bin' is outside of the file's folder; expected it there or below, or \
+        --allow-outside";
     assert_eq!(try_uri("../data.bin", false).unwrap_err(), outside);
     assert_eq!(try_uri("../data.bin", true).unwrap().positions.len(), 4);
     assert!(try_uri("/dev/zero", true).unwrap_err().contains("is not a file"));

@@ -32,8 +32,9 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     let mut loaded = if file.has_faces { mesh(input, &file)? } else { points(input, &mut file)? };
     input.step(input.bytes.len());
     loaded.note(Deed::Ignored, file.lines_and_points, "rows of lines and points");
-    loaded.note(Deed::Ignored, file.free_forms, "free-form curves and surfaces");
-    loaded.note(Deed::Ignored, file.materials.outside, "material files outside of the model's folder");
+    loaded.note(Deed::Ignored, file.free_forms, "free-form shapes (curve or surface)");
+    let outside = "material files outside of the model's folder (--allow-outside reads them)";
+    loaded.note(Deed::Ignored, file.materials.outside, outside);
     loaded.note(Deed::Ignored, file.materials.unreadable, "material files that can't be read");
     let strange = "colors of materials that are not red, green and blue";
     loaded.note(Deed::Ignored, file.materials.strange_colors, strange);

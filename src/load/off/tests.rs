@@ -49,9 +49,9 @@ fn vertices_have_what_the_letters_say() {
 fn what_is_not_drawn_is_told() {
     let loaded = load("OFF\n3 2 0\n0 0 0 9\n1 0 0\n0 1 0\n2 0 1\n3 0 1 2 255 0 0\nmore\n");
     let notes: Vec<String> = loaded.notes.iter().map(ToString::to_string).collect();
-    assert_eq!(notes[0], "1 faces with fewer than 3 corners left out");
-    assert_eq!(notes[1], "1 vertices with more numbers than their kind has, whose rest is ignored");
-    assert_eq!(notes[2..], ["1 colors of faces ignored", "1 text behind the last face ignored"]);
+    assert_eq!(notes[0], "1 face with fewer than 3 corners left out");
+    assert_eq!(notes[1], "1 vertex with more numbers than their kind has, whose rest is ignored");
+    assert_eq!(notes[2..], ["1 color of faces ignored", "1 text behind the last face ignored"]);
     assert!(matches!(load("OFF\n1 0 0\n1 2 3\n").model, Model::Points(_)));
 }
 

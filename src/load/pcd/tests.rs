@@ -65,7 +65,7 @@ fn all_encodings_are_the_same_points() {
         assert_eq!(loaded.format, words);
         assert_eq!(
             loaded.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
-            ["1 fields (curvature) ignored"]
+            ["1 field (curvature) ignored"]
         );
         let Model::Points(points) = loaded.model else { panic!("no points") };
         assert_eq!(points.positions[0], DVec3::new(4_600_000.000_123_456, 2.0, 3.0), "{words}");

@@ -79,7 +79,7 @@ pub struct ObjectDescription {
 /// Where a model comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// From a PLY or OBJ file. A scene file's are canonical paths: no link is followed any more when they are opened.
+    /// From a file of a model. A scene file's are canonical paths: no link is followed any more when they are opened.
     File(PathBuf),
     /// From the program itself.
     BuiltIn {

@@ -36,7 +36,7 @@ pub(super) fn read(table: &Table<'_>, outside: bool) -> Result<Source> {
 
 /// The file that the scene file names.
 fn find(scene_file: &Path, file: &Value<'_>, outside: bool) -> Result<PathBuf> {
-    let name = file.text("the name of a PLY or OBJ file")?;
+    let name = file.text("the name of a file of a model")?;
     let folder = match scene_file.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

@@ -41,7 +41,7 @@ fn check(bytes: &[u8], format: &str, notes: &[&str]) {
     assert_eq!(loaded.notes.iter().map(ToString::to_string).collect::<Vec<_>>(), notes);
 }
 
-const DEGENERATE: &str = "1 triangles with two corners at one place left out";
+const DEGENERATE: &str = "1 triangle with two corners at one place left out";
 
 #[test]
 fn binary_and_text_are_the_same_mesh_with_shared_vertices() {
@@ -53,7 +53,7 @@ fn binary_and_text_are_the_same_mesh_with_shared_vertices() {
     colored.extend([7; 3]);
     let notes = [
         DEGENERATE,
-        "1 attributes of triangles, which may be colors, ignored",
+        "1 attribute of triangles, which may be colors, ignored",
         "3 bytes behind the last triangle ignored",
     ];
     check(&colored, "STL, binary", &notes);

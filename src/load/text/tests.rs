@@ -70,7 +70,7 @@ fn values_go_where_the_header_says() {
     assert_eq!(points.positions, [DVec3::new(1.5, 2.0, 3.0)]);
     assert_eq!((points.normals, points.radii), (Some(vec![2.0 * Vec3::Z]), Some(vec![0.5])));
     assert_eq!(points.colors.get(0), Some([1.0, linear_from_srgb(0.2), 0.0, 1.0]));
-    assert_eq!(notes(&loaded), ["1 columns (column 'Time') ignored"]);
+    assert_eq!(notes(&loaded), ["1 column (column 'Time') ignored"]);
     let commented = self::points("//X Y Z Intensity\n1 2 3 7\n").1;
     assert_eq!(commented.format, "rows of x y z i, intensity as gray");
     assert_eq!(self::points("\u{feff}x,y,z\n1,2,3\n").0.positions.len(), 1);
@@ -81,9 +81,9 @@ fn the_user_may_name_the_columns() {
     let loaded = with_columns("-,z,y,x", "1 2 3 4\n5 6 7 8 9\n").unwrap();
     let Model::Points(points) = &loaded.model else { panic!("no points") };
     assert_eq!(points.positions[1], DVec3::new(8.0, 7.0, 6.0));
-    assert_eq!(notes(&loaded), ["1 rows with more numbers than columns, whose rest is ignored"]);
+    assert_eq!(notes(&loaded), ["1 row with more numbers than columns, whose rest is ignored"]);
     let rest = with_columns("x,y,z", "1 2 3 4\n").unwrap();
-    assert_eq!(notes(&rest), ["1 columns (column 4) ignored"]);
+    assert_eq!(notes(&rest), ["1 column (column 4) ignored"]);
     let short = with_columns("x,y,z,i", "a b c d\n1 2 3\n").unwrap_err();
     assert_eq!(short.to_string(), "a.xyz: line 2: 3 numbers in a row; expected 4");
 }

@@ -8,7 +8,7 @@ mod words;
 use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Result,
-    geometry::is_flat_in_front,
+    geometry::{is_flat_in_front, may_lie_on_its_back},
     load::file_name,
     scene::{Ball, Camera, CameraParts, PictureHeight, View},
 };
@@ -142,7 +142,16 @@ fn as_shaped(parts: CameraParts, loaded: &Loaded) -> CameraParts {
 
 /// With the direction that files or shapes tell, where none is given. An eye that is given and looks along it has no use for it.
 fn with_up(parts: CameraParts, loaded: &Loaded) -> CameraParts {
-    let Some(found) = loaded.up.as_ref().filter(|_| parts.up.is_none()) else { return parts };
+    if parts.up.is_some() {
+        return parts;
+    }
+    let Some(found) = loaded.up.as_ref() else {
+        let is_of_a_file = loaded.inputs.iter().any(|input| input.model.is_some());
+        if is_of_a_file && may_lie_on_its_back(&loaded.scene) {
+            up::doubt();
+        }
+        return parts;
+    };
     let with = parts.with_found_up(found.direction);
     match with.camera(&loaded.ball, [1, 1]) {
         Ok(_) => {

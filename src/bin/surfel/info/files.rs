@@ -2,12 +2,14 @@
 
 use std::fmt::Write as _;
 
+use glam::DVec3;
 use serde::Serialize;
 use surfel::{
     Error, Result,
     geometry::{mean_edge, mean_spacing},
     levels_file::LevelsFile,
     load::{PointOctree, file_name},
+    notes::counted,
     report::{CameraReport, InputReport, ModelReport},
     scene::{Bounds, MeshObject, Object, Settings, Splats},
 };
@@ -18,6 +20,7 @@ use crate::{
     console::Bars,
     hierarchies::load_scene_by_view,
     inputs::Inputs,
+    origin,
     scene::Loaded,
 };
 
@@ -79,6 +82,8 @@ struct Whole {
     min: [f64; 3],
     max: [f64; 3],
     extent: [f64; 3],
+    /// About the point that is the origin on a device, where coordinates are so large that this matters.
+    origin_shift: Option<[f64; 3]>,
     splats: usize,
     triangles: usize,
     /// Bytes of memory here.
@@ -124,6 +129,7 @@ pub fn gather(inputs: &Inputs, camera: &CameraArguments) -> Result<FileInfo> {
             min: bounds.min.into(),
             max: bounds.max.into(),
             extent: (bounds.max - bounds.min).into(),
+            origin_shift: origin::shift(&scene, bounds.radius()).map(DVec3::into),
             splats,
             triangles: scene.meshes.iter().map(|object| object.mesh.triangles.len()).sum(),
             host_bytes,
@@ -203,11 +209,13 @@ pub fn text(info: &FileInfo) -> String {
     for input in &info.inputs {
         let _ = writeln!(text, "{}", input.name);
         let holds = input.model.as_ref().map(model_rows).unwrap_or_default();
+        let because = Some(("because", input.because.clone())).filter(|(_, because)| !because.is_empty());
+        let drawn = [("drawn as", input.drawn_as.to_owned())].into_iter().chain(because);
         let notes = input.notes.iter().map(|note| ("note", note.to_string()));
-        write_rows(&mut text, holds.into_iter().chain(notes));
+        write_rows(&mut text, holds.into_iter().chain(notes).chain(drawn));
     }
     for part in &info.drawn {
-        let _ = writeln!(text, "\ndrawn: {} {} of {}", part.count, part.kind, part.name);
+        let _ = writeln!(text, "\ndrawn: {} of {}", counted(part.count as u64, part.kind), part.name);
         write_rows(&mut text, part_rows(part));
     }
     let Whole { min, max, extent, splats, host_bytes, device_bytes: [least, most], .. } = &info.scene;
@@ -228,6 +236,9 @@ pub fn text(info: &FileInfo) -> String {
         ("up", up),
         ("camera", format!("--eye {} --target {} {projection}", point(eye), point(target))),
     ];
+    if let Some(origin) = &info.scene.origin_shift {
+        rows.push(("origin", format!("moved to {} on a device, as its numbers have 32 bits", point(origin))));
+    }
     if *splats > 0 {
         rows.push(("memory", format!("{host_bytes} bytes here, {least} to {most} on a device")));
     }
@@ -243,8 +254,14 @@ fn write_rows(text: &mut String, rows: impl IntoIterator<Item = (&'static str, S
 
 fn model_rows(model: &ModelReport) -> Vec<(&'static str, String)> {
     let counts = match model.triangles {
-        Some(triangles) => format!("{} vertices, {triangles} triangles", model.points),
-        None => format!("{} {}", model.points, model.holds),
+        Some(triangles) => {
+            format!(
+                "{}, {}",
+                counted(model.points as u64, "vertices"),
+                counted(triangles as u64, "triangles")
+            )
+        }
+        None => counted(model.points as u64, model.holds),
     };
     let with = [(model.normals, "normals"), (model.colors, "colors"), (model.sizes, "sizes")];
     let list = |there: bool| {

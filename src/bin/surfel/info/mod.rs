@@ -5,6 +5,8 @@ mod files;
 mod numbers;
 mod octree;
 
+pub use numbers::number;
+
 use clap::Args;
 use surfel::{Error, Result};
 

@@ -1,7 +1,10 @@
 //! What a file has of an octree of points.
 
 use serde::Serialize;
-use surfel::load::{LevelOfOctree, PointOctree};
+use surfel::{
+    load::{LevelOfOctree, PointOctree},
+    notes::counted,
+};
 
 use super::numbers::number;
 
@@ -49,7 +52,15 @@ impl Octree {
         let all = ("octree", format!("{} levels, {nodes} nodes, by {pages} page{s}", levels.len()));
         let each = levels.iter().enumerate().map(|(level, own)| {
             let OctreeLevel { nodes, points, spacing } = own;
-            ("level", format!("{level}: {points} points in {nodes} nodes, {} apart", number(*spacing)))
+            (
+                "level",
+                format!(
+                    "{level}: {} in {}, {} apart",
+                    counted(*points, "points"),
+                    counted(*nodes, "nodes"),
+                    number(*spacing)
+                ),
+            )
         });
         std::iter::once(all).chain(each).collect()
     }

@@ -1,6 +1,9 @@
 //! What the viewer changes of a scene before it goes to the device: what is seen, how transparent, how large splats are.
 
-use surfel::scene::{HybridLevels, Object, Opacity, Scene, Shapes, Splats};
+use surfel::{
+    notes::counted,
+    scene::{HybridLevels, Object, Opacity, Scene, Shapes, Splats},
+};
 
 /// Changes of a scene. Things are objects, then meshes, then those in levels of detail.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,11 +128,11 @@ pub fn things(scene: &Scene) -> Vec<(String, String)> {
     let transparent = |opacity| if opacity == Opacity::Opaque { "" } else { ", transparent" };
     let objects = scene.objects.iter().map(|object| {
         let (count, opacity) = (object.splats.len(), object.splats.colors.opacity());
-        (object.name.clone(), format!("{count} splats{}", transparent(opacity)))
+        (object.name.clone(), format!("{}{}", counted(count as u64, "splats"), transparent(opacity)))
     });
     let meshes = scene.meshes.iter().map(|object| {
         let (count, opacity) = (object.mesh.triangles.len(), object.mesh.colors.opacity());
-        (object.name.clone(), format!("{count} triangles{}", transparent(opacity)))
+        (object.name.clone(), format!("{}{}", counted(count as u64, "triangles"), transparent(opacity)))
     });
     let leveled = scene.leveled.iter().map(|object| {
         let count = object.leaves.len();

@@ -50,8 +50,8 @@ fn faces_have_their_materials_colors_and_share_vertices_of_one_color() {
     assert_eq!(
         notes,
         [
-            "1 textures of materials ignored",
-            "1 transparencies of materials ignored",
+            "1 texture of materials ignored",
+            "1 transparency of materials ignored",
             "2 colors of materials that are not red, green and blue ignored",
         ]
     );
@@ -63,7 +63,7 @@ fn a_row_may_name_several_files_and_one_number_is_gray() {
     let (colors, _, notes) = load_in(&folder(), &text, false);
     let gray = linear_from_srgb(0.2);
     assert_eq!(colors, [[gray, gray, gray, 1.0]; 3]);
-    assert_eq!(notes[1], "1 material files that can't be read ignored");
+    assert_eq!(notes[1], "1 material file that can't be read ignored");
     // The file that has two names is read once.
     assert_eq!(notes[2], "2 colors of materials that are not red, green and blue ignored");
 }
@@ -81,9 +81,9 @@ fn no_file_outside_of_the_folder_is_opened() {
         let text = format!("mtllib {name}\n{SQUARE}v 0 0 9\nusemtl red\nf 1 2 3\n");
         let (colors, _, notes) = load_in(&folder, &text, false);
         assert_eq!(colors, [gray(); 3], "{name}");
-        assert_eq!(notes[1], "1 uses of materials that no file describes ignored", "{name}");
+        assert_eq!(notes[1], "1 use of materials that no file describes ignored", "{name}");
         assert!(
-            notes[2].ends_with(" material files outside of the model's folder ignored"),
+            notes[2].ends_with(" outside of the model's folder (--allow-outside reads them) ignored"),
             "{name}: {notes:?}"
         );
         if name != "../no.mtl" {
@@ -101,8 +101,8 @@ fn own_colors_of_vertices_win_and_materials_that_nobody_tells_are_noted() {
     assert_eq!(
         notes[..2],
         [
-            "1 uses of materials that no file describes ignored",
-            "1 faces' materials, whose vertices have colors, ignored",
+            "1 use of materials that no file describes ignored",
+            "1 face's material, whose vertices have colors, ignored",
         ]
     );
 }

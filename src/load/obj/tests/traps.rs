@@ -12,11 +12,11 @@ fn faces_may_stand_before_their_vertices_and_what_is_not_drawn_is_noted() {
     assert_eq!(
         notes(&text),
         [
-            "1 vertices without a face left out",
+            "1 vertex without a face left out",
             "2 faces with fewer than 3 corners left out",
-            "1 faces with a coordinate that is not finite left out",
+            "1 face with a coordinate that is not finite left out",
             "2 rows of lines and points ignored",
-            "1 free-form curves and surfaces ignored",
+            "1 free-form shape (curve or surface) ignored",
         ]
     );
 }
@@ -40,7 +40,7 @@ fn faces_with_unusable_normals_go_without_them() {
         );
         let normals = mesh(&text).normals.unwrap();
         assert_eq!(normals, [Vec3::Z, Vec3::Z, Vec3::Z, Vec3::ZERO], "{normal}");
-        assert_eq!(notes(&text), ["1 faces' normals that are zero, not finite or not there ignored"]);
+        assert_eq!(notes(&text), ["1 face's normal that is zero, not finite or not there ignored"]);
     }
 }
 
@@ -51,7 +51,7 @@ fn colors_beyond_their_range_are_clamped_and_bytes_are_bytes() {
     let gray = linear_from_srgb(0.8);
     let expected = [[1.0, 0.0, linear_from_srgb(0.2), 1.0], [gray, gray, gray, 1.0], [0.0, 0.0, 0.0, 1.0]];
     assert_eq!(colors, expected);
-    assert_eq!(notes(&text.replace("255", "1.5").replace("51", "-1")), ["1 colors beyond 0 to 1 clamped"]);
+    assert_eq!(notes(&text.replace("255", "1.5").replace("51", "-1")), ["1 color beyond 0 to 1 clamped"]);
 }
 
 #[test]
@@ -98,9 +98,6 @@ fn lines_of_any_length_and_endless_continuations_are_refused() {
 fn points_note_normals_that_are_not_theirs() {
     assert_eq!(
         notes(&format!("{SQUARE}vn 0 0 1\np 1 2 3 4\n")),
-        [
-            "1 normals, of which there is not one for each point, ignored",
-            "1 rows of lines and points ignored"
-        ]
+        ["1 normal, of which there is not one for each point, ignored", "1 row of lines and points ignored"]
     );
 }

@@ -98,9 +98,9 @@ fn incomplete_groups_are_left_out_and_noted() {
     assert_eq!(
         notes(&file),
         [
-            "1 values of 'nx' without 'ny' ignored",
-            "1 values of 'red' without 'green' ignored",
-            "1 values of 'su_x' without 'su_y' ignored",
+            "1 value of 'nx' without 'ny' ignored",
+            "1 value of 'red' without 'green' ignored",
+            "1 value of 'su_x' without 'su_y' ignored",
         ]
     );
     // One letter may mean anything.
@@ -114,7 +114,7 @@ fn a_radius_is_one_and_sizes_of_unknown_units_are_noted() {
     for name in ["psize", "psz", "size"] {
         let file = cloud(&of_type(name, "float"), "1 2 3 0.5\n");
         assert!(points(&file).radii.is_none());
-        assert_eq!(notes(&file), [format!("1 sizes '{name}', whose unit nobody tells, ignored")]);
+        assert_eq!(notes(&file), [format!("1 size '{name}', whose unit nobody tells, ignored")]);
     }
 }
 
@@ -130,7 +130,7 @@ fn other_names_of_the_vertices_and_elements_that_are_read_past() {
             file.replace("end_header", &element) + "7 8 9\n"
         };
         assert_eq!(points(both("vertex").as_bytes()).positions, [DVec3::new(7.0, 8.0, 9.0)]);
-        assert_eq!(notes(both("vertex").as_bytes()), [format!("1 elements '{name}' ignored")]);
+        assert_eq!(notes(both("vertex").as_bytes()), [format!("1 element '{name}' ignored")]);
         let other = if name == "point" { "points" } else { "point" };
         let error = load(both(other).as_bytes()).unwrap_err().to_string();
         assert_eq!(error, "a.ply: header: no element 'vertex'; expected one with x y z");
@@ -155,7 +155,7 @@ fn rows_of_faces_may_have_a_value_too_many() {
     let file = "ply\nformat ascii 1.0\nelement face 2\nproperty list uchar int vertex_indices\nelement vertex 3\n\
         property float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2 \n3 2 1 0 0\n0 0 0\n1 0 0\n0 1 0\n";
     assert_eq!(mesh(file.as_bytes()).triangles, [[0, 1, 2], [2, 1, 0]]);
-    assert_eq!(notes(file.as_bytes()), ["1 ends of rows with more values than the header declares ignored"]);
+    assert_eq!(notes(file.as_bytes()), ["1 end of rows with more values than the header declares ignored"]);
 }
 
 #[test]
@@ -190,7 +190,7 @@ fn what_meshes_do_not_use_is_noted() {
     assert_eq!(
         notes(file.as_bytes()),
         [
-            "1 faces with fewer than 3 corners left out",
+            "1 face with fewer than 3 corners left out",
             "3 sizes of vertices that faces join ignored",
             "2 colors of faces ignored",
         ]

@@ -172,7 +172,7 @@ builtin = "spehre" => line 2, object 1, builtin: "spehre": expected 'sphere'
 builtin = "relief"↵representation = "mesh" => line 3, object 1, representation: "mesh": expected 'splats': this built-in model has no triangles
 name = "a file" => line 1, object 1: neither file nor builtin; expected one of them
 file = "a.ply"↵builtin = "sphere" => line 2, object 1, file: beside builtin; expected one or the other
-file = 1 => line 2, object 1, file: 1: expected the name of a PLY or OBJ file
+file = 1 => line 2, object 1, file: 1: expected the name of a file of a model
 file = "a.ply"↵splats = 9 => line 3, object 1, splats: has no meaning for a file; expected resample, which spreads splats over a mesh
 file = "a.ply"↵triangles = 9 => line 3, object 1, triangles: has no meaning for a file
 file = "a.ply"↵seed = 9 => line 3, object 1, seed: has no meaning without resample

@@ -1,0 +1,120 @@
+use super::*;
+use crate::{
+    geometry::seams::sphere,
+    scene::{Colors, MeshObject, Object},
+};
+
+/// Disks of radius 0.1 with these centers and normals.
+fn scene(closed: bool, disks: impl Iterator<Item = (DVec3, Vec3)>) -> Scene {
+    let (positions, normals): (Vec<DVec3>, Vec<Vec3>) = disks.unzip();
+    let radii = vec![0.1; normals.len()];
+    let shapes = Shapes::Disks { normals, radii };
+    let splats = Splats::new(positions, shapes, Colors::unknown());
+    let object = Object { name: String::new(), splats, closed };
+    Scene { objects: vec![object], ..Scene::default() }
+}
+
+fn because(scene: &Scene) -> Option<String> {
+    up_of_shape(scene).map(|up| {
+        assert_eq!(up.direction, DVec3::Z);
+        up.because
+    })
+}
+
+fn square(side: u32) -> impl Iterator<Item = (f64, f64)> {
+    (0..side).flat_map(move |y| (0..side).map(move |x| (f64::from(x), f64::from(y))))
+}
+
+/// Hills of this height on a square of 40.
+fn hills(height: f64) -> impl Iterator<Item = (DVec3, Vec3)> {
+    square(40).map(move |(x, y)| {
+        let z = height * (0.3 * x).sin() * (0.2 * y).cos();
+        (DVec3::new(x, y, z), Vec3::new(0.2, 0.1, 1.0))
+    })
+}
+
+#[test]
+fn terrain_is_flat_and_open() {
+    assert_eq!(because(&scene(false, hills(2.0))).unwrap(), "it lies flat as ground does");
+    assert_eq!(because(&scene(true, hills(2.0))), None, "a closed thing");
+    assert_eq!(because(&scene(false, hills(0.0))), None, "a plane");
+    assert_eq!(because(&scene(false, hills(9.0))), None, "a head's half");
+    assert_eq!(because(&scene(false, hills(2.0).take(900))), None, "too few");
+    let other = hills(2.0).map(|(p, n)| (DVec3::new(p.x, p.z, -p.y), Vec3::new(n.x, n.z, -n.y)));
+    assert_eq!(because(&scene(false, other)), None, "terrain with y up");
+}
+
+#[test]
+fn a_map_has_large_coordinates_and_low_heights() {
+    let moved = |by: DVec3| because(&scene(false, hills(30.0).map(move |(p, n)| (p + by, n))));
+    assert_eq!(moved(DVec3::new(450_000.0, 5_400_000.0, 300.0)).unwrap(), "its x and y are those of a map");
+    assert_eq!(moved(DVec3::new(450_000.0, 300.0, 5_400_000.0)), None);
+    assert_eq!(moved(DVec3::splat(450_000.0)), None);
+}
+
+/// A house of 12 by 12 by 10 on a floor of 40 by 40, which lies `wide` times as far.
+fn house(wide: f64) -> Vec<(DVec3, Vec3)> {
+    let floor = square(40).map(|(x, y)| (DVec3::new(wide * (x - 20.0), wide * (y - 20.0), 0.0), Vec3::Z));
+    let walls = square(24).flat_map(|(along, z)| {
+        let (along, z) = (0.5 * along - 6.0, 0.5 * z.min(20.0));
+        [
+            (DVec3::new(along, 6.0, z), Vec3::Y),
+            (DVec3::new(along, -6.0, z), Vec3::NEG_Y),
+            (DVec3::new(6.0, along, z), Vec3::X),
+            (DVec3::new(-6.0, along, z), Vec3::NEG_X),
+        ]
+    });
+    floor.chain(walls).collect()
+}
+
+#[test]
+fn a_house_stands_on_its_ground_and_a_box_on_nothing() {
+    let up = because(&scene(false, house(1.0).into_iter()));
+    assert_eq!(up.unwrap(), "it stands on a floor");
+    assert_eq!(
+        because(&scene(false, house(0.3).into_iter())),
+        None,
+        "a room, or a stage seen from the front"
+    );
+    let turned = house(1.0).into_iter().map(|(p, n)| (DVec3::new(p.x, p.z, -p.y), Vec3::new(n.x, n.z, -n.y)));
+    assert_eq!(because(&scene(false, turned)), None, "with y up");
+    let medal = house(1.0).into_iter().filter(|(_, n)| *n == Vec3::Z);
+    assert_eq!(because(&scene(false, medal)), None, "no walls");
+}
+
+#[test]
+fn a_room_may_lie_on_its_back() {
+    // 40 by 40 and 12 high: floor, ceiling and four walls.
+    let level = |z: f64| square(41).map(move |(x, y)| (DVec3::new(x, y, z), Vec3::Z));
+    let walls = square(41).filter(|(_, z)| *z <= 12.0).flat_map(|(along, z)| {
+        [
+            (DVec3::new(along, 0.0, z), Vec3::Y),
+            (DVec3::new(along, 40.0, z), Vec3::Y),
+            (DVec3::new(0.0, along, z), Vec3::X),
+            (DVec3::new(40.0, along, z), Vec3::X),
+        ]
+    });
+    let room: Vec<_> = level(0.0).chain(level(12.0)).chain(walls).collect();
+    let may = |closed: bool, disks: &[(DVec3, Vec3)]| {
+        let scene = scene(closed, disks.iter().copied());
+        assert_eq!(because(&scene), None);
+        may_lie_on_its_back(&scene)
+    };
+    assert!(may(false, &room));
+    assert!(!may(true, &room), "a closed thing");
+    let turned: Vec<_> =
+        room.iter().map(|(p, n)| (DVec3::new(p.x, p.z, -p.y), Vec3::new(n.x, n.z, -n.y))).collect();
+    assert!(!may(false, &turned), "with y up");
+    let floors: Vec<_> = room.iter().copied().filter(|(_, n)| *n == Vec3::Z).collect();
+    assert!(!may(false, &floors), "no walls");
+    let ball = MeshObject { name: String::new(), mesh: sphere(5), closed: false };
+    assert!(!may_lie_on_its_back(&Scene { meshes: vec![ball], ..Scene::default() }));
+}
+
+#[test]
+fn a_ball_has_no_up() {
+    for closed in [false, true] {
+        let mesh = MeshObject { name: String::new(), mesh: sphere(5), closed };
+        assert_eq!(because(&Scene { meshes: vec![mesh], ..Scene::default() }), None);
+    }
+}
