@@ -1,20 +1,76 @@
 //! What all targets do with a file.
 
-use std::{io::Cursor, path::Path};
+use std::{
+    fs,
+    io::Cursor,
+    path::{Path, PathBuf},
+};
 
 use surfel::{
-    ErrorKind,
+    Error, ErrorKind,
     levels_file::LevelsFile,
-    load::{LoadOptions, load_bytes},
+    load::{LoadOptions, PointOctree, load, load_bytes, load_scene_file},
 };
 
 /// Reads it as a file of this name. It may be refused, in one line that names it; the fuzzer sees panics, hangs and
 /// memory.
 pub fn read(name: &str, bytes: &[u8]) {
     if let Err(error) = load_bytes(Path::new(name), bytes.to_vec(), &LoadOptions::default(), &()) {
-        let text = error.to_string();
-        let is_input = matches!(error.kind(), ErrorKind::Input { .. });
-        assert!(is_input && text.starts_with(name) && !text.contains('\n'), "{text}");
+        check(&error, name);
+    }
+}
+
+/// It is an error of the file's content, in one line that starts with the name.
+fn check(error: &Error, name: &str) {
+    let text = error.to_string();
+    let is_input = matches!(error.kind(), ErrorKind::Input { .. });
+    assert!(is_input && text.starts_with(name) && !text.contains('\n'), "{text}");
+}
+
+/// Writes files into a folder of this process, and tells it.
+fn written(files: &[(&str, &[u8])]) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("surfel_fuzz_{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    for (name, bytes) in files {
+        fs::write(folder.join(name), bytes).expect("a file");
+    }
+    folder
+}
+
+/// Reads it as a scene file, of objects that are not there.
+pub fn read_scene(bytes: &[u8]) {
+    let folder = written(&[("a.toml", bytes)]);
+    if let Err(error) = load_scene_file(&folder.join("a.toml"), &LoadOptions::default()) {
+        check(&error, &folder.to_string_lossy());
+    }
+}
+
+/// Reads it as the materials of an OBJ file, which is read whatever they are.
+pub fn read_materials(bytes: &[u8]) {
+    let obj = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n";
+    let folder = written(&[("a.obj", obj), ("a.mtl", bytes)]);
+    load(&folder.join("a.obj"), &LoadOptions::default(), &()).expect("a mesh");
+}
+
+/// Reads it as COPC, or as the three files of Potree: the lengths of the first two, of two bytes each, stand before them.
+pub fn read_octree(bytes: &[u8]) {
+    let (folder, name) = match bytes.split_first_chunk::<4>() {
+        Some((lengths, rest)) if lengths != b"LASF" => {
+            let [a, b, c, d] = *lengths;
+            let [metadata, hierarchy] = [[a, b], [c, d]].map(|length| usize::from(u16::from_le_bytes(length)));
+            let (metadata, rest) = rest.split_at(metadata.min(rest.len()));
+            let (hierarchy, nodes) = rest.split_at(hierarchy.min(rest.len()));
+            let files = [("metadata.json", metadata), ("hierarchy.bin", hierarchy), ("octree.bin", nodes)];
+            (written(&files), "metadata.json")
+        }
+        _ => (written(&[("a.copc.laz", bytes)]), "a.copc.laz"),
+    };
+    let read = PointOctree::open(&folder.join(name), &LoadOptions::default()).and_then(|mut octree| {
+        let all = octree.choose(&|_| true)?;
+        octree.read(&all, &())
+    });
+    if let Err(error) = read {
+        check(&error, &folder.to_string_lossy());
     }
 }
 
@@ -44,11 +100,7 @@ pub fn read_levels(bytes: &[u8]) {
             let held = chosen.object.leaves.bytes() + chosen.object.nodes.bytes();
             assert!(held <= 2 * bytes.len() as u64, "{held} of {}", bytes.len());
         }
-        Err(error) => {
-            let text = error.to_string();
-            let is_input = matches!(error.kind(), ErrorKind::Input { .. });
-            assert!(is_input && text.starts_with("a.surfel") && !text.contains('\n'), "{text}");
-        }
+        Err(error) => check(&error, "a.surfel"),
     }
 }
 

@@ -51,12 +51,14 @@ impl<'a> Lines<'a> {
     pub fn next(&mut self) -> Result<Option<Line<'a>>> {
         while let Some(rest) = self.input.bytes.get(self.at..).filter(|rest| !rest.is_empty()) {
             let at = self.at;
-            let whole = rest.split(|b| *b == self.line_end).next().unwrap_or_default();
+            let most = self.input.options.limits.line_bytes;
+            // No more of a line is looked at.
+            let window = rest.get(..=most).unwrap_or(rest);
+            let whole = window.split(|b| *b == self.line_end).next().unwrap_or_default();
             self.at += whole.len() + 1;
             if at / STEP_BYTES != self.at / STEP_BYTES {
                 self.input.step(self.at.min(self.input.bytes.len()));
             }
-            let most = self.input.options.limits.line_bytes;
             if whole.len() > most {
                 return Err(self.input.fault(self.input.line(at), format!("longer than {most} bytes")));
             }

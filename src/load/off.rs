@@ -9,7 +9,7 @@ mod tests;
 use glam::{DVec3, Vec3};
 
 use super::{
-    Input, Loaded, Model,
+    Input, Limits, Loaded, Model,
     lines::{Line, Lines, shown},
     shade,
 };
@@ -61,7 +61,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     }
     for i in 0..faces {
         let line = lines.expect(&format!("face {i} of {faces}"))?;
-        read.face(&lines, line, vertices)?;
+        read.face(&lines, line, vertices, &input.options.limits)?;
     }
     read.rest = u64::from(lines.next()?.is_some());
     Ok(read.loaded(name, kind))
@@ -142,9 +142,13 @@ impl Read {
         Ok(())
     }
 
-    fn face(&mut self, lines: &Lines<'_>, line: Line<'_>, vertices: u64) -> Result<()> {
+    fn face(&mut self, lines: &Lines<'_>, line: Line<'_>, vertices: u64, limits: &Limits) -> Result<()> {
         let words = &mut line.words();
         let corners: u64 = lines.number(line, words, "the number of corners")?;
+        let Limits { list_items, faces, .. } = *limits;
+        if corners > list_items as u64 {
+            return Err(lines.fault(line, format!("{corners} corners; expected at most {list_items}")));
+        }
         let (mut first, mut before) = (0, 0);
         for i in 0..corners {
             let corner: u64 = lines.number(line, words, "the number of a vertex")?;
@@ -159,6 +163,9 @@ impl Read {
                 _ => self.triangles.push([first, before, corner]),
             }
             before = corner;
+        }
+        if self.triangles.len() as u64 > faces {
+            return Err(lines.fault(line, format!("more than {faces} triangles; expected at most that many")));
         }
         self.small_faces += u64::from(corners < 3);
         self.colored_faces += u64::from(words.next().is_some());

@@ -29,9 +29,11 @@ pub struct Limits {
     pub list_items: usize,
     /// Bytes of standard input, of which no size is known beforehand.
     pub piped_bytes: u64,
-    /// Bytes to which any compressed file may expand, however small it is.
+    /// Bytes to which the compressed points of any LAZ or PCD file may expand, however small it is.
     pub expanded_bytes: u64,
-    /// Bytes to which each byte of a larger compressed file may expand beyond [`Limits::expanded_bytes`].
+    /// As [`Limits::expanded_bytes`], for files that are compressed as a whole, by gzip or zstd.
+    pub unpacked_bytes: u64,
+    /// Bytes to which each byte of a larger compressed file may expand beyond these.
     pub expansion: u64,
     /// As [`Limits::expansion`], for the records of LAZ files, whose flat terrains compress better than others.
     pub laz_expansion: u64,
@@ -47,7 +49,10 @@ impl Limits {
         list_items: 1 << 20,
         piped_bytes: 16 << 30,
         expanded_bytes: 32 << 20,
-        expansion: 12,
+        // Points of three bytes become splats of 25 times as much: together less than 64 MiB.
+        unpacked_bytes: 2 << 20,
+        // Text becomes a tenth, seldom less.
+        expansion: 16,
         laz_expansion: 32,
     };
 }
@@ -70,5 +75,10 @@ impl Limits {
     /// Bytes to which this many compressed ones may expand, each to `expansion`.
     pub(super) fn expanded(&self, compressed: usize, expansion: u64) -> u64 {
         expansion.saturating_mul(compressed as u64).saturating_add(self.expanded_bytes)
+    }
+
+    /// As [`Limits::expanded`], for files that are compressed as a whole.
+    pub(super) fn unpacked(&self, compressed: usize) -> u64 {
+        self.expansion.saturating_mul(compressed as u64).saturating_add(self.unpacked_bytes)
     }
 }

@@ -125,6 +125,49 @@ fn a_small_file_that_expands_without_end() {
     refused("a.xyz.gz", &twice, "compressed twice, by gzip and gzip; expected once");
 }
 
+/// The smallest points, all at one place, in a file that becomes a thousandth.
+#[test]
+fn small_files_of_many_equal_points() {
+    let count = 10_000_000;
+    let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+    let header = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {count}\nproperty uchar x\nproperty uchar y\n\
+        property uchar z\nend_header\n"
+    );
+    encoder.write_all(header.as_bytes()).unwrap();
+    encoder.write_all(&vec![0; 3 * count]).unwrap();
+    refused("a.ply.gz", &encoder.finish().unwrap(), "expands to more than");
+}
+
+#[test]
+fn a_small_mesh_in_many_places() {
+    let nodes = vec![r#"{"mesh":0}"#; 5000].join(",");
+    let gltf = format!(
+        r#"{{"asset":{{"version":"2.0"}},"nodes":[{nodes}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3000,"type":"VEC3"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36000}}],
+        "buffers":[{{"byteLength":36000,"uri":"data:;base64,{}"}}]}}"#,
+        "A".repeat(48_000)
+    );
+    refused("a.gltf", gltf.as_bytes(), "15000000 vertices in all nodes together, about ");
+}
+
+#[test]
+fn lines_without_end() {
+    let ones = "1".repeat(200 << 20);
+    let words = "line 2: a line of more than 1048576 bytes";
+    refused("a.xyz", format!("0 0 0\n1 1 {ones}").as_bytes(), words);
+    refused("a.xyz", format!("0 0 0\n1 1 1{}\n2 2 2\n", ones.replace('1', " ")).as_bytes(), words);
+    refused("a.off", format!("OFF\n3 1 0\n{ones}\n").as_bytes(), "line 3: longer than 1048576 bytes");
+}
+
+#[test]
+fn scene_files_of_many_values() {
+    let values = |count: usize| format!("a = [{}0]\n", "0,".repeat(count));
+    refused("a.toml", values(500_000).as_bytes(), "expected a scene file, at most 262144");
+    refused("a.toml", values(131_000).as_bytes(), "line 1: unknown key 'a'");
+}
+
 #[test]
 fn text_that_is_nested_without_end() {
     let (open, close) = ("[".repeat(100_000), "]".repeat(100_000));

@@ -179,8 +179,8 @@ fn counts_beyond_the_file_are_refused_before_memory_is_taken() {
 fn hostile_bytes_are_refused_or_read() {
     let files = [file(1, None), file(2, Some(pose()))];
     // Each case reads a whole tree of XML, and the checksums would hide what is behind them.
-    attack(&files, 2_000, parse);
-    attack(&files, 4_000, |input| {
+    attack(&files, 20_000, parse);
+    attack(&files, 20_000, |input| {
         let bytes = repaired(input.bytes.to_vec());
         parse(&Input { bytes: &bytes, ..*input })
     });

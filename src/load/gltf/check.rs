@@ -18,9 +18,10 @@ const VERTEX_BYTES: u64 = 52;
 /// About how many bytes a corner takes.
 const CORNER_BYTES: u64 = 12;
 
-/// How many bytes the meshes of all nodes may take, however small the file is; and for each byte of the file.
-const MOST_BYTES: u64 = 1 << 30;
-const MOST_BYTES_A_BYTE: u64 = 18;
+/// How many bytes the meshes of all nodes may take, however small the file is; and for each byte of the file, which is the
+/// same mesh about sixty times.
+const MOST_BYTES: u64 = 32 << 20;
+const MOST_BYTES_A_BYTE: u64 = 64;
 
 /// Refuses meshes that can't be built, or that are too large when all nodes have theirs.
 pub(super) fn check(
@@ -60,7 +61,7 @@ pub(super) fn check(
     let most = file.saturating_mul(MOST_BYTES_A_BYTE).saturating_add(MOST_BYTES);
     if all_bytes > most {
         let problem = format!(
-            "{all_vertices} vertices in all nodes together, about {all_bytes} bytes; expected {most}"
+            "{all_vertices} vertices in all nodes together, about {all_bytes} bytes; expected at most {most}, 64 for each byte of the file"
         );
         return Err(input.fault("", problem));
     }

@@ -68,7 +68,8 @@ fn faults_name_their_line() {
     refuses("COFF\n1 0 0\n0 0 0 1\n", "line 3: a color of 1 numbers; expected 3 or 4");
     refuses("OFF\n2 0 0\n0 0 0 00000\n", "line 4: the file ends; expected vertex 1 of 2");
     refuses("OFF\n1 1 0\n0 0 0\n3 0 0 1\n", "line 4: vertex 1, but the file has 1, from 0");
-    refuses("OFF\n1 1 0\n0 0 0\n9999999999 0\n", "line 4: the line ends; expected the number of a vertex");
+    refuses("OFF\n1 1 0\n0 0 0\n9999 0\n", "line 4: the line ends; expected the number of a vertex");
+    refuses("OFF\n1 1 0\n0 0 0\n9999999999 0\n", "line 4: 9999999999 corners; expected at most 1048576");
 }
 
 #[test]

@@ -20,6 +20,8 @@ pub(super) struct Header {
     pub body_start: usize,
     /// How many lines the header has.
     pub lines: usize,
+    /// What ends a line, also of an ascii body: a carriage return alone is how old systems wrote it.
+    pub line_end: u8,
     /// It has the line `comment surfel closed`: the splats sample a closed surface and their normals point outward.
     pub closed: bool,
     /// `save/` wrote it: colors have the whole range of their type, 0 to 1 for `float`.
@@ -33,7 +35,11 @@ const OWN: &str = "splats: disks with radius, or tangent vectors";
 const CLOSED: &str = "surfel closed";
 
 pub(super) fn parse(input: &Input<'_>) -> Result<Header> {
-    let mut lines = Lines { input, start: 0, line: 0 };
+    let line_end = match input.bytes {
+        [b'p', b'l', b'y', b'\r', next, ..] if *next != b'\n' => b'\r',
+        _ => b'\n',
+    };
+    let mut lines = Lines { input, start: 0, line: 0, line_end };
     let first = lines.next()?;
     if first.trim_ascii() != b"ply" {
         return Err(lines.fault(format!("'{}'; expected 'ply'", shown(first))));
@@ -60,6 +66,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Header> {
         elements: statements.elements,
         body_start: lines.start,
         lines: lines.line,
+        line_end,
         closed: statements.closed,
         own: statements.own,
     })
@@ -72,6 +79,7 @@ struct Lines<'a> {
     start: usize,
     /// The number of the line before it.
     line: usize,
+    line_end: u8,
 }
 
 impl<'a> Lines<'a> {
@@ -81,7 +89,7 @@ impl<'a> Lines<'a> {
         let room = limits.header_bytes.saturating_sub(self.start).min(limits.line_bytes);
         let window = rest.get(..room).unwrap_or(rest);
         self.line += 1;
-        if let Some(end) = window.iter().position(|&b| b == b'\n') {
+        if let Some(end) = window.iter().position(|&b| b == self.line_end) {
             self.start += end + 1;
             return rest.get(..end).ok_or_else(|| self.ends());
         }

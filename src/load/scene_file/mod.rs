@@ -29,8 +29,8 @@ use super::LoadOptions;
 use crate::{error::Result, small_file::read_small_text};
 use document::{Document, Table, one_line};
 
-/// More than a thousand objects take: what is larger is something else.
-pub const MOST_SCENE_FILE_BYTES: u64 = 1 << 20;
+/// About what a thousand objects take: what is larger is something else, and the parser takes a hundred times as much.
+pub const MOST_SCENE_FILE_BYTES: u64 = 256 << 10;
 
 /// The most objects of a scene file.
 pub const MOST_OBJECTS: usize = 1024;

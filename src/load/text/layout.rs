@@ -42,12 +42,10 @@ pub(super) type Fault = (usize, String);
 pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
     let line_end = if input.bytes.contains(&b'\n') { b'\n' } else { b'\r' };
     let (mut comment, mut header, mut count) = (None, None, None);
-    let lines =
-        Lines { bytes: input.bytes, at: input.bytes.len() - without_mark(input.bytes).len(), line_end };
-    for (at, line) in lines {
-        if line.len() > input.options.limits.line_bytes {
-            return Err((at, too_long(input.options.limits.line_bytes)));
-        }
+    let most = input.options.limits.line_bytes;
+    let start = input.bytes.len() - without_mark(input.bytes).len();
+    for line in (Lines { bytes: input.bytes, at: start, line_end, most }) {
+        let (at, line) = line?;
         if line.is_empty() {
             continue;
         }
@@ -68,7 +66,7 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
             }
             (Some(_), false) => {
                 let start = count.map_or(at, |(at, _)| at);
-                let rest = Lines { bytes: input.bytes, at, line_end };
+                let rest = Lines { bytes: input.bytes, at, line_end, most };
                 let (columns, ignored) = columns(input, writing, at, header, comment, rest)?;
                 return Ok(Layout { writing, columns, ignored, start, counted: count.is_some(), line_end });
             }
@@ -83,7 +81,7 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
     }
 }
 
-pub(super) fn too_long(most: usize) -> String {
+fn too_long(most: usize) -> String {
     format!("a line of more than {most} bytes; expected a row of numbers")
 }
 
@@ -100,7 +98,7 @@ fn columns(
     comment: Option<&[u8]>,
     mut rows: Lines<'_>,
 ) -> Result<(Columns, Vec<String>), Fault> {
-    let first = rows.next().map(|(_, line)| line).unwrap_or_default();
+    let first = rows.next().transpose()?.map(|(_, line)| line).unwrap_or_default();
     let width = writing.fields(first).count();
     if let Some(given) = &input.options.columns {
         let behind = width.saturating_sub(given.columns().len());
@@ -132,7 +130,7 @@ fn columns(
     {
         return Ok((columns, others));
     }
-    let columns = by_width(width, &samples(writing, width, at, input.bytes, rows.line_end));
+    let columns = by_width(width, &samples(writing, width, Lines { at, ..rows })?);
     let ignored = (1..).zip(&columns).filter(|(_, column)| **column == Column::Other);
     let ignored = ignored.map(|(i, _)| format!("column {i}")).collect();
     match Columns::new(columns) {
@@ -141,25 +139,31 @@ fn columns(
     }
 }
 
-/// Rows from the start and from all over the file; those that are wrong are left to their reader.
-fn samples(writing: Writing, width: usize, start: usize, bytes: &[u8], line_end: u8) -> Vec<Vec<f64>> {
+/// Rows from the start and from all over the file; those that are wrong are left to their reader, but for a line that is
+/// too long: it would be looked at again and again.
+fn samples(writing: Writing, width: usize, lines: Lines<'_>) -> Result<Vec<Vec<f64>>, Fault> {
     let row = |line: &[u8]| -> Option<Vec<f64>> {
         let row: Option<Vec<f64>> = writing.fields(line).map(|word| writing.number(word)).collect();
         row.filter(|row| row.len() == width)
     };
     // A row of more columns has no rule.
     if width > 10 {
-        return Vec::new();
+        return Ok(Vec::new());
     }
-    let first = Lines { bytes, at: start, line_end };
-    let mut rows: Vec<Vec<f64>> = first.take(SAMPLES / 2).filter_map(|(_, line)| row(line)).collect();
-    let length = bytes.len() - start;
+    let mut rows = Vec::new();
+    for line in lines.take(SAMPLES / 2) {
+        rows.extend(row(line?.1));
+    }
+    let length = lines.bytes.len() - lines.at;
     for i in 1..SAMPLES / 2 {
         // The line that is there is cut; the next one is whole.
-        let mut there = Lines { bytes, at: start + length / (SAMPLES / 2) * i, line_end };
-        rows.extend(there.by_ref().nth(1).and_then(|(_, line)| row(line)));
+        let mut there = Lines { at: lines.at + length / (SAMPLES / 2) * i, ..lines };
+        there.next().transpose()?;
+        if let Some((_, line)) = there.next().transpose()? {
+            rows.extend(row(line));
+        }
     }
-    rows
+    Ok(rows)
 }
 
 fn by_width(width: usize, rows: &[Vec<f64>]) -> Vec<Column> {
@@ -196,22 +200,30 @@ fn is_normal<'a>(triples: impl Iterator<Item = &'a [f64]>) -> bool {
     any && all_unit
 }
 
-/// The lines of a file, without blanks around them, and the bytes at which they start.
+/// The lines of a file, without blanks around them, and the bytes at which they start. One that is too long, with its
+/// blanks, is a fault, and no more of it is looked at.
+#[derive(Clone, Copy)]
 pub(super) struct Lines<'a> {
     pub bytes: &'a [u8],
     pub at: usize,
     pub line_end: u8,
+    /// The most bytes of a line.
+    pub most: usize,
 }
 
 impl<'a> Iterator for Lines<'a> {
-    type Item = (usize, &'a [u8]);
+    type Item = Result<(usize, &'a [u8]), Fault>;
 
     #[inline]
-    fn next(&mut self) -> Option<(usize, &'a [u8])> {
+    fn next(&mut self) -> Option<Self::Item> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         let at = self.at;
-        let line = rest.split(|b| *b == self.line_end).next().unwrap_or_default();
+        let window = rest.get(..=self.most).unwrap_or(rest);
+        let line = window.split(|b| *b == self.line_end).next().unwrap_or_default();
         self.at += line.len() + 1;
-        Some((at, line.trim_ascii()))
+        if line.len() > self.most {
+            return Some(Err((at, too_long(self.most))));
+        }
+        Some(Ok((at, line.trim_ascii())))
     }
 }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::{
     columns::{Column, SLOTS},
-    layout::{Fault, Layout, Lines, comment_text, too_long},
+    layout::{Fault, Layout, Lines, comment_text},
 };
 use crate::load::{Limits, lines::shown};
 
@@ -69,14 +69,11 @@ fn block(bytes: &[u8], start: usize, end: usize, layout: &Layout, limits: &Limit
     let mut rows = Rows::default();
     let slots: Vec<Option<usize>> = layout.columns.columns().iter().map(|column| column.slot()).collect();
     // What the file has before the block keeps the bytes of faults right.
-    for (at, line) in
-        (Lines { bytes: bytes.get(..end).unwrap_or(bytes), at: start, line_end: layout.line_end })
-    {
+    let bytes = bytes.get(..end).unwrap_or(bytes);
+    for line in (Lines { bytes, at: start, line_end: layout.line_end, most: limits.line_bytes }) {
+        let (at, line) = line?;
         if line.is_empty() || comment_text(line).is_some() {
             continue;
-        }
-        if line.len() > limits.line_bytes {
-            return Err((at, too_long(limits.line_bytes)));
         }
         rows.line(at, line, layout, &slots).map_err(|problem| (at, problem))?;
     }

@@ -118,6 +118,10 @@ fn wrong_rows_are_told_by_their_line() {
         &format!("1 2 3\n{}\n", "1 ".repeat(1 << 20)),
         "line 2: a line of more than 1048576 bytes; expected a row of numbers",
     );
+    refuses(
+        &format!("1 2 3\n4 5 6{}\n", " ".repeat(1 << 20)),
+        "line 2: a line of more than 1048576 bytes; expected a row of numbers",
+    );
     refuses(&"1".repeat(3 << 20), "line 1: a line of more than 1048576 bytes; expected a row of numbers");
 }
 

@@ -5,7 +5,7 @@ use std::{collections::BTreeSet, fs, path::Path};
 use glam::DVec3;
 
 use super::{gzip, meshes, points, zstd};
-use crate::program::Folder;
+use crate::{octree_files::Octree, program::Folder};
 
 /// The target that reads files of this name.
 fn target(name: &str) -> &str {
@@ -24,6 +24,18 @@ fn hierarchy(folder: &Folder) -> Vec<u8> {
     fs::read(path).unwrap()
 }
 
+/// COPC, and the three files of Potree as the target has them: the lengths of the first two before all.
+fn octrees() -> [Vec<u8>; 2] {
+    let point = |i: i32| ([100 * i, 37 * i * i % 4096, 4 * i], [300 * i as u16; 3]);
+    let octree = Octree::of(&(0..60).map(point).collect::<Vec<_>>(), [0; 3], 1 << 13, 4);
+    let [metadata, hierarchy, nodes] = octree.potree(1);
+    let lengths =
+        [metadata.len(), hierarchy.len()].map(|length| u16::try_from(length).unwrap().to_le_bytes());
+    [octree.copc(1).0, [lengths.concat(), metadata, hierarchy, nodes].concat()]
+}
+
+const MATERIALS: &[u8] = b"newmtl a\nKd 0.5 1 0\nd 0.5\nnewmtl b\nKd 1 0 0\nTr 0.25\nmap_Kd b.png\n";
+
 /// Writes them to the folder that `SURFEL_CORPUS` names, a folder of seeds a target.
 #[test]
 fn every_target_of_the_fuzzer_has_seeds() {
@@ -34,6 +46,10 @@ fn every_target_of_the_fuzzer_has_seeds() {
     let rows = super::content(&seeds, "a.xyz");
     let packed = [("a.gz", gzip(rows)), ("a.zst", zstd(rows)), ("a.surfel", hierarchy(&nowhere))];
     seeds.extend(packed);
+    let [copc, potree] = octrees();
+    let scene = include_bytes!("../../../examples/spheres.toml").to_vec();
+    seeds.extend([("a.toml", scene), ("a.mtl", MATERIALS.to_vec())]);
+    seeds.extend([("copc.octree", copc), ("potree.octree", potree)]);
     for (name, bytes) in &seeds {
         let folder = corpus.join(target(name));
         fs::create_dir_all(&folder).unwrap();

@@ -41,6 +41,7 @@ const PROGRESS_ELEMENTS: u64 = 1 << 16;
 pub(super) struct Body<'a> {
     input: &'a Input<'a>,
     encoding: Encoding,
+    line_end: u8,
     rest: &'a [u8],
     /// The number of the last line read, from 1; in ascii files only.
     line: usize,
@@ -51,7 +52,8 @@ pub(super) struct Body<'a> {
 impl<'a> Body<'a> {
     pub(super) fn new(input: &'a Input<'a>, header: &Header) -> Self {
         let rest = input.bytes.get(header.body_start..).unwrap_or_default();
-        Self { input, encoding: header.encoding, rest, line: header.lines, with_extra: 0 }
+        let Header { encoding, line_end, lines: line, .. } = *header;
+        Self { input, encoding, line_end, rest, line, with_extra: 0 }
     }
 
     pub(super) fn is_ascii(&self) -> bool {
@@ -193,7 +195,7 @@ impl<'a> Body<'a> {
         let most = self.input.options.limits.line_bytes;
         while !self.rest.is_empty() {
             let window = self.rest.get(..=most).unwrap_or(self.rest);
-            let end = window.iter().position(|&b| b == b'\n').unwrap_or(window.len());
+            let end = window.iter().position(|&b| b == self.line_end).unwrap_or(window.len());
             self.line += 1;
             if end > most {
                 return Err(self.fault(format!("longer than {most} bytes; expected at most that many")));

@@ -2,7 +2,11 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Value::*, *};
+use super::{
+    Value::*,
+    faults::{POINTS, message},
+    *,
+};
 use crate::math::srgb::linear_from_srgb;
 
 /// A file of ascii points: further properties, and the rows.
@@ -197,4 +201,18 @@ fn what_meshes_do_not_use_is_noted() {
     );
     let normals = points(&cloud(&of_type("normal_x normal_y normal_z", "float"), "1 2 3 4 5 6\n")).normals;
     assert_eq!(normals, Some(vec![Vec3::new(4.0, 5.0, 6.0)]));
+}
+
+#[test]
+fn lines_may_end_with_a_carriage_return_alone() {
+    for file in encodings(&POINTS.replace("ascii", "ENCODING"), &[vec![Float(0.5); 7], vec![Float(1.5); 7]]) {
+        let end = file.windows(10).position(|window| window == b"end_header").unwrap() + 11;
+        let is_ascii = file.windows(5).any(|window| window == b"ascii");
+        let mut old = file.clone();
+        let lines = if is_ascii { file.len() } else { end };
+        old[..lines].iter_mut().filter(|byte| **byte == b'\n').for_each(|byte| *byte = b'\r');
+        assert_eq!(splats(&old).positions, [DVec3::splat(0.5), DVec3::splat(1.5)]);
+    }
+    let text = POINTS.replace('\n', "\r") + "0 0 0 0 0 1 1\r0 0 0 0 0 one 1\r";
+    assert!(message(text.as_bytes()).starts_with("a.ply: line 13: "), "{}", message(text.as_bytes()));
 }
