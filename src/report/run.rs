@@ -146,7 +146,7 @@ impl fmt::Display for RunReport {
         writeln!(
             f,
             "{name}, {driver}, Vulkan {api_version}; {}",
-            counted(self.scene.splats as u64, "splats")
+            counted(self.scene.splats, "splats")
         )?;
         let steps = Grid::of("", &self.steps)
             .column("before the frames", |step| format!("  {}", step.name))
