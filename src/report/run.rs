@@ -143,11 +143,7 @@ impl From<&Camera> for CameraReport {
 impl fmt::Display for RunReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let DeviceReport { name, driver, api_version, .. } = &self.device;
-        writeln!(
-            f,
-            "{name}, {driver}, Vulkan {api_version}; {}",
-            counted(self.scene.splats, "splats")
-        )?;
+        writeln!(f, "{name}, {driver}, Vulkan {api_version}; {}", counted(self.scene.splats, "splats"))?;
         let steps = Grid::of("", &self.steps)
             .column("before the frames", |step| format!("  {}", step.name))
             .column("seconds", |step| format!("{:.3}", step.secs));

@@ -86,7 +86,10 @@ fn noise_and_withheld_points_are_left_out_with_a_note() {
         let loaded = of_bytes("a.laz", &bytes, parse).unwrap();
         let noise = if format == 6 { 2 } else { 1 };
         assert_eq!(points(&loaded).positions.len(), 8 - noise);
-        let noise = format!("{noise} points of the classes for noise (7 and 18) left out");
+        let noise = format!(
+            "{noise} point{} of the classes for noise (7 and 18) left out",
+            if noise == 1 { "" } else { "s" }
+        );
         assert_eq!(notes(&loaded), [noise, "2 points that are marked as withheld left out".to_owned()]);
     }
 }
