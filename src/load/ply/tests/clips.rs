@@ -100,5 +100,5 @@ fn modes_of_no_meaning_are_refused_and_what_is_not_whole_is_told() {
     assert_eq!(clip(&file), (Clip::One(curve(ONE)), None));
     assert!(notes(&file).contains(&"1 value of 'clip2_a1' without 'clip2_w' ignored".to_owned()));
     let [file, ..] = encodings(&HEADER.replace("sv_z", "radius"), &[vertex(ONE, TWO, 1)]);
-    assert!(notes(&file).iter().any(|note| note.contains("clip curves without tangent vectors")));
+    assert!(notes(&file).iter().any(|note| note.contains("clip curve without tangent vectors")));
 }
