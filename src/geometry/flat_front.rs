@@ -17,12 +17,12 @@ pub fn is_flat_in_front(scene: &Scene, toward_eye: DVec3) -> bool {
     if !closed.chain(scene.meshes.iter().map(|object| object.closed)).all(|closed| closed) {
         return false;
     }
-    // What faces away is as flat, and normals may be inside out: so both sides count.
     let [mut flat, mut all] = [0.0; 2];
     let mut add = |normal: DVec3, area: f64| {
-        let facing = normal.dot(toward_eye).abs();
+        let facing = normal.dot(toward_eye);
         let seen = area * facing;
-        if seen.is_finite() {
+        // Normals of what is closed are outside.
+        if seen > 0.0 && seen.is_finite() {
             flat += if facing >= FACING { seen } else { 0.0 };
             all += seen;
         }
@@ -104,6 +104,8 @@ mod tests {
         let disks =
             |radii: [f32; 2]| of(Shapes::Disks { normals: vec![Vec3::Z, slanted], radii: radii.into() });
         assert!(disks([1.0, 1.0]) && !disks([0.8, 1.0]) && !disks([f32::NAN, 1.0]));
+        // What faces away is not seen.
+        assert!(!of(Shapes::Disks { normals: vec![Vec3::NEG_Z, slanted], radii: vec![9.0, 1.0] }));
         let ellipses = |length: f32| {
             let t = [length * Vec3::Y, Vec3::Y].to_vec();
             of(Shapes::Ellipses { s: vec![Vec3::X, Vec3::new(0.8, 0.0, -0.6)], t })
