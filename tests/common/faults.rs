@@ -45,6 +45,16 @@ pub fn stop() -> Option<&'static str> {
     FAILED.take()
 }
 
+/// An error names the object and what its function answered, as one of the device.
+#[track_caller]
+pub fn is_told(function: &str, answer: vk::Result, error: &surfel::Error) {
+    assert_eq!(error.exit_code(), 2, "{function}: {error}");
+    let text = error.to_string();
+    assert!(!text.contains("''"), "{function}: no object is named: {error}");
+    let is_memory = matches!(error.kind(), surfel::ErrorKind::Memory { .. });
+    assert!(is_memory || text.contains(&format!("{answer:?}")), "{function}: not what was answered: {error}");
+}
+
 /// The functions that can fail, call by call since the last time that this was asked for.
 pub fn take_called() -> Vec<&'static str> {
     CALLED.take()

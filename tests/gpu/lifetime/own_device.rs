@@ -47,12 +47,7 @@ fn whichever_call_of_our_own_device_fails_is_named_and_the_next_frame_is_as_it_w
     let asked = std::env::var("SURFEL_TEST_DEVICE").ok();
     let open = || Headless::on(Device::new(&instance, asked.as_deref())?, None);
     let check = |function: &str, answer: vk::Result, error: &Error| {
-        assert_eq!(error.exit_code(), 2, "{function}: {error}");
-        let text = error.to_string();
-        assert!(!text.contains("''"), "{function}: no object is named: {error}");
-        let told =
-            matches!(error.kind(), surfel::ErrorKind::Memory { .. }) || text.contains(&format!("{answer:?}"));
-        assert!(told, "{function}: not what was answered: {error}");
+        faults::is_told(function, answer, error);
         assert_eq!(said(&host), [] as [String; 0], "{function}");
     };
     faults::take_called();
