@@ -266,7 +266,7 @@ impl Drop for Shared {
 /// block is what may lie idle beside it, and the crate's own 256 MiB would be six times the memory of a million splats.
 fn block_sizes() -> gpu_allocator::AllocationSizes {
     const FIRST_BYTES: u64 = 8 << 20;
-    const MOST_BYTES: u64 = 64 << 20;
+    const MOST_BYTES: u64 = 16 << 20;
     gpu_allocator::AllocationSizes::new(FIRST_BYTES, FIRST_BYTES)
         .with_max_device_memblock_size(MOST_BYTES)
         .with_max_host_memblock_size(MOST_BYTES)

@@ -28,7 +28,7 @@ pub struct Import<'a> {
     pub queue_family: u32,
     /// What the host really enabled.
     pub enabled: Features,
-    /// The host's allocator, which all device memory is then taken from; else it is taken from the device, in blocks of 8 to 64 MiB.
+    /// The host's allocator, which all device memory is then taken from; else it is taken from the device, in blocks of 8 to 16 MiB.
     pub memory: Option<Arc<dyn HostMemory>>,
 }
 

@@ -1,6 +1,6 @@
 //! Cuts, outlines, paths, and what is written into the panel.
 
-use std::time::Duration;
+use std::{thread, time::Duration};
 
 use super::{
     CAMERA,
@@ -81,16 +81,16 @@ fn a_number_that_is_written_into_the_panel_is_no_key_of_the_window() {
     view.wait_until("something is shown", |shot| shot.colors() > 20);
     screen.key("o");
     view.wait_until("the panel is shown", |shot| shot.pixels[640 * 10 + 620] == [20, 20, 24]);
-    std::thread::sleep(Duration::from_millis(500));
+    thread::sleep(Duration::from_millis(500));
     // The number beside the slider of the things' alpha.
     screen.drive(&["mousemove", "506", "62"]);
-    std::thread::sleep(Duration::from_millis(300));
+    thread::sleep(Duration::from_millis(300));
     screen.drive(&["click", "1"]);
-    std::thread::sleep(Duration::from_millis(300));
+    thread::sleep(Duration::from_millis(300));
     let before = screen.shot([300, 700]);
     for key in ["0", "period", "3", "Return"] {
         screen.key(key);
-        std::thread::sleep(Duration::from_millis(100));
+        thread::sleep(Duration::from_millis(100));
     }
     view.wait_until("what is seen is transparent", |shot| {
         shot.size == [640, 700] && screen.shot([300, 700]).differs_from(&before) > 5000
@@ -98,5 +98,32 @@ fn a_number_that_is_written_into_the_panel_is_no_key_of_the_window() {
     // Neither was all reset, nor are splats larger, nor is there a place of a path.
     let copied = view.camera();
     assert!(!copied.is_empty());
+    view.end();
+}
+
+#[test]
+fn the_panel_is_used_by_keys_alone() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    let first = [&["a.ply", "--size", "640x300"], &CAMERA[..]].concat();
+    let mut view = View::open(&screen, &folder, &first);
+    let whole = render(&folder, &first);
+    view.wait_for(&whole);
+    let press = |keys: &str| {
+        for key in keys.split_whitespace() {
+            screen.key(key);
+            thread::sleep(Duration::from_millis(250));
+        }
+    };
+    press("o Tab Tab");
+    let with_panel = screen.shot([640, 300]);
+    press("space");
+    view.wait_until("the thing is gone", |shot| shot.differs_from(&with_panel) > 5_000);
+    press("space");
+    // Behind alpha and size of splats, each with its number, are lists; the second is that of filters.
+    press("Tab Tab Tab Tab Tab Tab Right Escape Escape");
+    let unfiltered = render(&folder, &[&first[..], &["--filter", "none"]].concat());
+    assert!(unfiltered.differs_from(&whole) > 20);
+    view.wait_for(&unfiltered);
     view.end();
 }

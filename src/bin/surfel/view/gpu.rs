@@ -29,7 +29,7 @@ use super::{
 const IN_FLIGHT: usize = 2;
 
 /// Pipelines that are kept for settings that come again: some twenty are of a frame.
-const MOST_PIPELINES: usize = 100;
+const MOST_PIPELINES: usize = 50;
 
 /// So many that were given up are worth to look for the memory that they leave.
 const MANY_PIPELINES: usize = 25;

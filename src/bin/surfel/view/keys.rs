@@ -191,6 +191,7 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("wheel", "nearer to what is under the cursor, or away from it"),
     ("double click", "turns about that point of the surface from then on"),
     ("w a s d q e", "fly: forward, left, back, right, down, up; with Shift faster"),
+    ("Tab", "through the panel: Space sets, left and right change, Escape leaves"),
 ];
 
 /// What a key does, by its character or name, if anything.

@@ -14,6 +14,7 @@ mod files;
 mod frame;
 mod frame_desc;
 mod gpu;
+mod history;
 mod input;
 mod keys;
 #[cfg(feature = "live-shaders")]

@@ -5,6 +5,9 @@ use surfel::scene::Lod;
 /// What a moving frame may cost.
 const GOAL_SECS: f64 = 0.040;
 
+/// A picture at rest that takes no longer comes at once: something coarser before it would only make it later. Up to 0.15 s it is seen within 0.2 s after the hand is off.
+const WHOLE_SECS: f64 = 0.300;
+
 /// The picture's side over the window's, and the size up to which splats are drawn as one, in pixels of the picture. From fine to coarse, each
 /// about two thirds of the cost of the one before.
 const STEPS: &[(f64, f64)] = &[
@@ -26,6 +29,8 @@ pub struct Pace {
     step: usize,
     /// Frames in a row that would have been fast enough one step finer.
     fast: u32,
+    /// What all of the picture has cost last.
+    whole_secs: f64,
 }
 
 impl Pace {
@@ -48,6 +53,16 @@ impl Pace {
     /// Whether a moving picture is as fine as one at rest.
     pub fn is_finest(&self) -> bool {
         self.step == 0
+    }
+
+    /// Whether all of the picture takes so long that something coarser is to come before it, when it rests.
+    pub fn is_slow(&self) -> bool {
+        self.whole_secs > WHOLE_SECS
+    }
+
+    /// Learns what all of the picture has cost.
+    pub fn learn_whole(&mut self, secs: f64) {
+        self.whole_secs = secs;
     }
 
     /// Learns what a moving frame has cost.
@@ -92,6 +107,16 @@ mod tests {
             assert!(!pace.is_finest() && secs < 1.15 * GOAL_SECS, "{full_secs}: {pace:?}");
         }
         assert_eq!(settled(1e9).size_px([300, 1]), [75, 1]);
+    }
+
+    #[test]
+    fn something_coarser_comes_before_a_picture_that_takes_long() {
+        let mut pace = Pace::default();
+        let slow = [0.1, 0.29, 0.31, 0.2].map(|secs| {
+            pace.learn_whole(secs);
+            pace.is_slow()
+        });
+        assert_eq!(slow, [false, false, true, false]);
     }
 
     #[test]

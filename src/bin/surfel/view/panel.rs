@@ -8,10 +8,9 @@ use surfel::{
 
 use super::{
     edits::{Edits, things},
-    keys::{Action, Comparing, Cutting},
-    loading::Step,
-    ui::History,
-    values,
+    history::{History, Times},
+    keys::{Action, Comparing, Cutting, Step},
+    loading, values,
     viewer::Viewer,
 };
 
@@ -58,11 +57,14 @@ impl State {
         if let Some(prepared) = &viewer.prepared {
             let scene = prepared.scene();
             let how = match prepared.step() {
-                Step::Part => " (a part for now)",
-                Step::Whole => "",
-                Step::Leveled => " (in levels)",
+                loading::Step::Part => " (a part for now)",
+                loading::Step::Whole => "",
+                loading::Step::Leveled => " (in levels)",
             };
             facts.push(("splats", format!("{}{how}", scene.splat_count())));
+            if let Some(drawn) = viewer.splats_drawn.filter(|drawn| *drawn > 0) {
+                facts.push(("drawn of them", drawn.to_string()));
+            }
             facts.push(("triangles", scene.triangle_count().to_string()));
             facts.push(("of the scene", mib(scene.bytes())));
             facts.extend(prepared.pages().map(|pages| ("pages", pages.words())));
@@ -181,7 +183,8 @@ fn method(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
         for setting in values::IN_PANEL.iter().filter_map(|name| values::setting(name)) {
             let now = (setting.get)(&state.settings);
             ui.label(setting.name).on_hover_text(setting.help.trim());
-            ComboBox::from_id_salt(setting.name).selected_text(&now).show_ui(ui, |ui| {
+            let list = ComboBox::from_id_salt(setting.name).selected_text(&now);
+            let list = list.show_ui(ui, |ui| {
                 for value in values::values(setting) {
                     let help = setting.choices.iter().find(|choice| choice.name == value);
                     let label = ui.selectable_label(now == value, value);
@@ -191,6 +194,9 @@ fn method(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
                     }
                 }
             });
+            changes.extend(
+                step(ui, &list.response).map(|step| Change::Act(Action::Setting(setting.name, step))),
+            );
             ui.end_row();
         }
     });
@@ -204,6 +210,17 @@ fn method(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
         };
         changes.push(Change::Settings(Settings { layers, ..state.settings.clone() }));
     }
+}
+
+/// Which value an arrow asks for, of a list that has the keyboard.
+fn step(ui: &Ui, list: &egui::Response) -> Option<Step> {
+    if !list.has_focus() {
+        return None;
+    }
+    let arrows = egui::EventFilter { horizontal_arrows: true, ..Default::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(list.id, arrows));
+    let steps = [(egui::Key::ArrowRight, Step::Next), (egui::Key::ArrowLeft, Step::Before)];
+    steps.into_iter().find_map(|(key, step)| ui.input(|input| input.key_pressed(key)).then_some(step))
 }
 
 fn cuts(ui: &mut Ui, changes: &mut Vec<Change>) {
@@ -240,26 +257,33 @@ fn light(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
 }
 
 fn cost(ui: &mut Ui, history: &History) {
-    let size = Vec2::new(ui.available_width().min(400.0), 48.0);
-    let (response, painter) = ui.allocate_painter(size, egui::Sense::hover());
-    let rect = response.rect;
-    painter.rect_filled(rect, 2.0, Color32::from_gray(40));
-    let most = history.frames_ms.iter().copied().fold(1.0, f32::max);
-    let step = rect.width() / history.frames_ms.len().max(2) as f32;
-    for (number, ms) in history.frames_ms.iter().enumerate() {
-        let x = rect.left() + (number as f32 + 0.5) * step;
-        let top = rect.bottom() - rect.height() * ms / most;
-        let stroke = egui::Stroke::new(step.max(1.0), Color32::from_rgb(90, 170, 255));
-        painter.line_segment([egui::pos2(x, rect.bottom()), egui::pos2(x, top)], stroke);
-    }
-    if let Some(last) = history.frames_ms.back() {
+    let width = ui.available_width().min(400.0);
+    let most = bars(ui, Vec2::new(width, 48.0), &history.frames);
+    if let Some(last) = history.frames.back() {
         ui.label(format!("frame {last:.2} ms; the tallest of these {most:.2} ms"));
     }
-    Grid::new("passes").num_columns(2).striped(true).show(ui, |ui| {
-        for (name, ms) in &history.passes {
+    Grid::new("passes").num_columns(3).striped(true).show(ui, |ui| {
+        for (name, times) in history.passes() {
             ui.label(name);
-            ui.label(format!("{ms:.3} ms"));
+            ui.label(times.back().map_or(String::new(), |ms| format!("{ms:.3} ms")));
+            bars(ui, Vec2::new(60.0, 14.0), times);
             ui.end_row();
         }
     });
+}
+
+/// Times as bars, the tallest as tall as there is room for; that one.
+fn bars(ui: &mut Ui, size: Vec2, times: &Times) -> f32 {
+    let (response, painter) = ui.allocate_painter(size, egui::Sense::hover());
+    let rect = response.rect;
+    painter.rect_filled(rect, 2.0, Color32::from_gray(40));
+    let most = times.iter().copied().fold(0.0, f32::max);
+    let step = rect.width() / times.len().max(2) as f32;
+    for (number, ms) in times.iter().enumerate() {
+        let x = rect.left() + (number as f32 + 0.5) * step;
+        let top = rect.bottom() - rect.height() * ms / most.max(f32::MIN_POSITIVE);
+        let stroke = egui::Stroke::new(step.max(1.0), Color32::from_rgb(90, 170, 255));
+        painter.line_segment([egui::pos2(x, rect.bottom()), egui::pos2(x, top)], stroke);
+    }
+    most
 }

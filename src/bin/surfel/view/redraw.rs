@@ -48,12 +48,16 @@ impl Viewer {
         self.look_at_files();
         let rests = self.moved.is_some_and(|moved| now >= moved + REST);
         let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
-        if is_due(self.tidies) && self.moved.is_some() {
-            self.tidies = Some(now + TIDY);
-        } else if is_due(self.tidies) {
-            self.tidies = None;
-            // A device that is lost tells the next frame, too.
-            let _ = self.gpu.tidy();
+        if is_due(self.tidies) {
+            // Errors, such as a lost device, come with the next frame, too.
+            let rests = self.moved.is_none() && self.gpu.is_idle().unwrap_or(true);
+            self.tidies = (!rests).then(|| now + TIDY);
+            if rests {
+                let _ = self.gpu.tidy(self.comparing.is_some());
+                if self.ui.shows_times() && self.splats_drawn.is_none() && !self.is_stale {
+                    let _ = self.count_drawn();
+                }
+            }
         }
         let pages = self.prepared.as_ref().and_then(OnDevice::pages);
         let pages_are_there = is_due(self.looks_for_pages) && pages.is_none_or(Paged::has_arrived);
@@ -87,9 +91,7 @@ impl Viewer {
         self.learn(is_moving)?;
         let overlay = self.run_ui()?;
         let (drawn, which) = self.draw(is_moving, overlay.as_ref())?;
-        if self.gpu.has_dropped() {
-            self.tidies = Some(now + TIDY);
-        }
+        self.tidies = Some(now + TIDY);
         match drawn {
             Drawn::Hidden => {}
             Drawn::Again => {
@@ -116,7 +118,8 @@ impl Viewer {
         let whole = self.at_rest(&Settings { size_px: window_px, ..self.settings.clone() });
         let is_coarse = self.shown == Use::Moving && !is_moving;
         if self.is_stale || is_coarse {
-            (self.refined, self.refines) = (0, None);
+            self.splats_drawn = None;
+            (self.refined, self.refines, self.is_hasty) = (0, None, self.pace.is_slow());
         }
         let refinement = self.next_refinement(&whole);
         let camera = self.camera();
@@ -222,6 +225,9 @@ impl Viewer {
                 // A picture at rest tells of moving ones where they are the same.
                 if is_moving && (which == Use::Moving || self.pace.is_finest()) {
                     self.pace.learn(period.map_or(cost.secs, |period| period.as_secs_f64()));
+                }
+                if cost.what == "whole" {
+                    self.pace.learn_whole(cost.secs);
                 }
                 self.ui.history.push(&cost);
                 if self.options.prints_frames {

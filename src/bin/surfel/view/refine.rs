@@ -1,4 +1,4 @@
-//! The picture at rest, step by step: levels of detail of a pixel, all of it, and samples until it is the one that `surfel render` writes. Each step is a frame, drawn
+//! The picture at rest, step by step: levels of detail of a pixel where all of it takes long, all of it, and samples until it is the one that `surfel render` writes. Each step is a frame, drawn
 //! while the device has nothing else to do, so that what moves meanwhile waits for one at most.
 
 use std::time::{Duration, Instant};
@@ -81,13 +81,26 @@ impl Viewer {
         // Two pictures are compared as they are.
         let samples = if self.comparing.is_some() { Samples(1) } else { self.samples_of(whole) };
         let has_levels = self.prepared.as_ref().is_some_and(|prepared| prepared.step() == Step::Leveled);
-        // Where pictures that move are whole there is no haste.
         let is_leveled = has_levels
             && self.settings.lod == Lod::Auto
             && whole.lod != Lod::Auto
             && self.comparing.is_none()
-            && !self.pace.is_finest();
+            && self.is_hasty;
         steps(is_leveled, samples).nth(self.refined)
+    }
+
+    /// Counts the splats that the picture at rest is made of, for the panel, by drawing it once more; 0 where a method does not list them.
+    ///
+    /// # Errors
+    /// As [`surfel::Headless::count_listed`].
+    pub fn count_drawn(&mut self) -> Result<()> {
+        let settings = self.at_rest(&Settings { size_px: self.window_px(), ..self.settings.clone() });
+        let (Some(camera), Some(prepared)) = (self.camera(), &self.prepared) else { return Ok(()) };
+        let settings = prepared.pages().map_or(Some(settings.clone()), |pages| pages.now(&settings));
+        let Some(settings) = settings else { return Ok(()) };
+        self.splats_drawn = Some(self.gpu.headless.count_listed(prepared.scene(), &camera, &settings)?);
+        self.window.request_redraw();
+        Ok(())
     }
 
     /// A step is drawn: the next one comes once the device is done with it.

@@ -13,9 +13,10 @@ use winit::{
 };
 
 use super::{
+    history::History,
+    keys::Comparing,
     overlay::OverlayFrame,
     panel::{self, Change, State},
-    picture::Cost,
     popups,
     viewer::Viewer,
 };
@@ -42,34 +43,6 @@ pub struct Ui {
     pub reading: Option<String>,
     /// What frames have cost.
     pub history: History,
-}
-
-/// What the last frames have cost, the latest last.
-#[derive(Default)]
-pub struct History {
-    /// Milliseconds of a frame.
-    pub frames_ms: VecDeque<f32>,
-    /// The passes of the last frame that was timed by passes.
-    pub passes: Vec<(String, f32)>,
-}
-
-/// Frames in the history.
-const MOST_FRAMES: usize = 120;
-
-impl History {
-    /// One more.
-    pub fn push(&mut self, cost: &Cost) {
-        self.frames_ms.push_back(1e3 * cost.secs as f32);
-        while self.frames_ms.len() > MOST_FRAMES {
-            self.frames_ms.pop_front();
-        }
-        let passes = cost.profile.passes.iter();
-        let timed: Vec<_> =
-            passes.filter_map(|pass| Some((pass.name.clone(), 1e3 * pass.secs? as f32))).collect();
-        if !timed.is_empty() {
-            self.passes = timed;
-        }
-    }
 }
 
 impl Ui {
@@ -177,14 +150,18 @@ impl Ui {
         true
     }
 
-    /// A key; whether it is for what lies over the picture, in which a number is being written.
+    /// A key; whether it is for what lies over the picture: the panel has those that follow Tab, until Escape.
     pub fn key(&mut self, event: &KeyEvent, modifiers: ModifiersState) -> bool {
         let is_command = modifiers.control_key() || modifiers.alt_key() || modifiers.super_key();
-        if !self.has_panel || is_command || !self.context.wants_keyboard_input() {
+        let enters = event.logical_key == Key::Named(NamedKey::Tab);
+        if !self.has_panel || is_command || !(enters || self.context.wants_keyboard_input()) {
             return false;
         }
         let pressed = event.state == ElementState::Pressed;
         let named = match &event.logical_key {
+            Key::Named(NamedKey::Space) => Some(egui::Key::Space),
+            Key::Named(NamedKey::ArrowUp) => Some(egui::Key::ArrowUp),
+            Key::Named(NamedKey::ArrowDown) => Some(egui::Key::ArrowDown),
             Key::Named(NamedKey::Enter) => Some(egui::Key::Enter),
             Key::Named(NamedKey::Escape) => Some(egui::Key::Escape),
             Key::Named(NamedKey::Tab) => Some(egui::Key::Tab),
@@ -260,12 +237,12 @@ impl Viewer {
     /// # Errors
     /// Of the device.
     pub fn run_ui(&mut self) -> Result<Option<OverlayFrame>> {
-        let state = State::of(self);
-        if !self.ui.is_shown() && !state.shows_difference {
+        if !self.ui.is_shown() && self.comparing != Some(Comparing::Difference) {
             // What was to be drawn again is not there any more.
             self.ui.wakes = None;
             return Ok(None);
         }
+        let state = State::of(self);
         let window_px = self.window_px();
         let (frame, textures, changes) = self.ui.run(window_px, &state);
         self.gpu.update_overlay(&textures)?;

@@ -75,6 +75,10 @@ pub struct Viewer {
     pub shown: Use,
     /// How many steps to the picture at rest are drawn.
     pub refined: usize,
+    /// Of those, something coarser comes before all of the picture.
+    pub is_hasty: bool,
+    /// How many splats the picture at rest is made of, once they are counted.
+    pub splats_drawn: Option<u64>,
     /// When the next one may be.
     pub refines: Option<Instant>,
     /// When the costs of frames are looked for.
@@ -134,6 +138,8 @@ impl Viewer {
             input_at: None,
             is_stale: true,
             refined: 0,
+            is_hasty: false,
+            splats_drawn: None,
             refines: None,
             looks_for_costs: None,
             looks_for_pages: None,

@@ -56,17 +56,16 @@ impl Gpu {
         self.period.take()
     }
 
-    /// Whether pipelines were given up whose memory is not given back.
-    pub fn has_dropped(&self) -> bool {
-        self.dropped > 0
-    }
-
-    /// Destroys what was dropped, and gives its memory back, while nothing else is to be done.
+    /// Gives back what is of no use before the next frame, while the device has nothing to do. `is_comparing`: the picture by another method is of use.
     ///
     /// # Errors
     /// Whatever the driver answers, such as a lost device.
-    pub fn tidy(&mut self) -> Result<()> {
+    pub fn tidy(&mut self, is_comparing: bool) -> Result<()> {
         self.dropped = 0;
+        let other = &mut self.pictures[Use::Other.index()];
+        if !is_comparing && other.shot().is_some() {
+            *other = Picture::new(self.headless.device());
+        }
         // SAFETY: nothing is being recorded now.
         unsafe { self.headless.queue().wait_idle() }?;
         memory::give_back();
