@@ -147,7 +147,7 @@ impl<'a> View<'a> {
         view
     }
 
-    fn wait(&mut self, what: &str, mut is_so: impl FnMut(&mut Self) -> bool) {
+    pub fn wait(&mut self, what: &str, mut is_so: impl FnMut(&mut Self) -> bool) {
         let begun = Instant::now();
         while !is_so(self) {
             let said = || self.stderr.lock().unwrap().clone();
