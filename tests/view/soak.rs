@@ -51,11 +51,18 @@ fn played(is_validated: bool) -> (f64, f64) {
     let words = [&["a.ply", "--size", "320x240", "--print-frames"], &CAMERA[..]].concat();
     let mut view = View::open_as(&screen, &folder, &words, is_validated);
     view.wait_until("something is shown", |shot| shot.colors() > 20);
-    let warm: Vec<f64> = (0..3).map(|_| settled_mb(&screen, &mut view)).collect();
-    println!("resident after each setting was seen once, twice, three times, MB: {warm:.1?}");
-    view.play_at_random(&mut Random(11), Duration::from_secs(secs), KEYS);
+    let mut random = Random(11);
+    let mut warm = vec![settled_mb(&screen, &mut view)];
+    // Each setting in windows of each size, whose blocks of device memory the system counts as they are touched.
+    view.play_at_random(&mut random, Duration::from_secs(secs / 3), KEYS);
+    warm.extend((0..2).map(|_| settled_mb(&screen, &mut view)));
+    println!(
+        "resident after each setting was seen once; and after {} s of random input, MB: {warm:.1?}",
+        secs / 3
+    );
+    view.play_at_random(&mut random, Duration::from_secs(secs), KEYS);
     let end: Vec<f64> = (0..2).map(|_| settled_mb(&screen, &mut view)).collect();
-    println!("after {secs} s of random input: {end:.1?}");
+    println!("after {secs} s more of random input: {end:.1?}");
     let said = view.end();
     let after_input = |line: &str| {
         let (_, told) = line.split_once("its end seen ")?;

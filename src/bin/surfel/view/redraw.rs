@@ -24,7 +24,7 @@ use super::{
 use crate::console;
 
 /// The camera rests once it has not moved for so long.
-const REST: Duration = Duration::from_millis(40);
+const REST: Duration = Duration::from_millis(25);
 /// How soon the cost of a frame is looked for again that is not done.
 const COST: Duration = Duration::from_millis(10);
 /// How soon pages are looked for again.
