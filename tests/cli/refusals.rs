@@ -12,14 +12,16 @@ use super::program::{Folder, Run, command, run};
 /// Beside 16 times the file, the program may take this much.
 const KIB: u64 = 64 << 10;
 
-/// Runs `info` on the file, and tells the most memory that it was seen to hold, in KiB; 0 where the system does not
-/// tell.
+/// Runs `info` on the file, and tells the most memory that it took, in KiB: what its allocator counted, or what the system saw that it
+/// held, whichever is more.
 ///
-/// The system keeps the peak, not just the present value, so that what is missed is at most what was taken within
-/// the last moment.
+/// The allocator knows what was asked for and never touched, the system what other libraries took. The system keeps the peak, not just the
+/// present value, so that what is missed is at most what was taken within the last moment.
 fn watched(folder: &Folder, name: &str) -> (Run, u64) {
-    let mut child =
-        command(folder, &["info", name]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let counted = folder.path("peak");
+    let mut program = command(folder, &["info", name]);
+    program.env("SURFEL_PEAK_FILE", &counted).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = program.spawn().unwrap();
     let (status, start) = (format!("/proc/{}/status", child.id()), Instant::now());
     let mut peak = 0;
     while child.try_wait().unwrap().is_none() {
@@ -32,7 +34,9 @@ fn watched(folder: &Folder, name: &str) -> (Run, u64) {
         }
         std::thread::sleep(Duration::from_micros(200));
     }
-    (run(child.wait_with_output().unwrap()), peak)
+    let counted: u64 = std::fs::read_to_string(counted).unwrap().parse().unwrap();
+    assert!(counted > 0);
+    (run(child.wait_with_output().unwrap()), peak.max(counted / 1024))
 }
 
 #[track_caller]
