@@ -191,3 +191,16 @@ fn words_where_numbers_are_expected() {
     refused("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 x 0\nf 1 2 3\n", "line 3");
     refused("a.off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "7");
 }
+
+/// Nothing is made of them before they are left out.
+#[test]
+fn small_vertices_that_no_face_uses() {
+    let count = 5_000_000;
+    let header = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {count}\nproperty uchar x\nproperty uchar y\n\
+        property uchar z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    );
+    // A face of one vertex three times.
+    let bytes = [header.as_bytes(), &vec![0; 3 * count], &[3], &[0; 12]].concat();
+    refused("a.ply", &bytes, "no splat can be drawn");
+}
