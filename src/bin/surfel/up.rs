@@ -102,10 +102,10 @@ mod tests {
     #[test]
     fn the_first_file_that_says_it_is_believed() {
         let files = [(DVec3::Z, "a.las".to_owned()), (DVec3::Y, "b.glb".to_owned())];
-        let found = of(files.to_vec()).unwrap();
+        let found = of(files.to_vec(), &Bars::new()).unwrap();
         assert_eq!((found.direction, found.because.as_str()), (DVec3::Z, "a.las says so"));
-        assert_eq!(of(Vec::new()), None);
-        let piped = of(vec![(DVec3::Z, "-".to_owned())]).unwrap();
+        assert_eq!(of(Vec::new(), &Bars::new()), None);
+        let piped = of(vec![(DVec3::Z, "-".to_owned())], &Bars::new()).unwrap();
         assert_eq!(piped.because, "standard input says so");
     }
 }
