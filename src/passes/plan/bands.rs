@@ -19,8 +19,8 @@ use crate::{
 /// Bytes that lists may take in any case.
 const LEAST_BYTES: u64 = 16_000_000;
 
-/// What a frame takes beside splats, records and lists: runs of blocks, arguments.
-const BESIDE_BYTES: u64 = 1 << 16;
+/// What a frame takes beside splats, records and lists, as a part of what these may: runs of blocks, arguments, and that blocks are listed as wholes.
+const BESIDE: u64 = 32;
 
 /// The most bands: each takes a few commands more.
 const MOST_BANDS: usize = 16;
@@ -61,7 +61,8 @@ pub(crate) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u64 {
     match memory {
         TileMemory::Auto => {
             let splats = sum(Chunk::bytes);
-            (sum(|chunk| chunk.scene_bytes) * 3 / 2).saturating_sub(splats + BESIDE_BYTES).max(LEAST_BYTES)
+            let most = (sum(|chunk| chunk.scene_bytes) * 3 / 2).saturating_sub(splats);
+            (most - most / BESIDE).max(LEAST_BYTES)
         }
         TileMemory::Most(bytes) => bytes,
     }
