@@ -239,27 +239,6 @@ fn add(splats: &mut Splats, places: &[Place], radius: &dyn Fn(DVec3) -> f64) {
 fn polygon_part(mut mesh: Mesh, polygon: &[bool]) -> Mesh {
     let mut polygon = polygon.iter();
     mesh.triangles.retain(|_| *polygon.next().unwrap_or(&true));
-    let mut used = vec![false; mesh.positions.len()];
-    mesh.triangles.iter().flatten().for_each(|&vertex| used[vertex as usize] = true);
-    let mut next = 0;
-    let number = |&used: &bool| {
-        let number = next;
-        next += u32::from(used);
-        number
-    };
-    let numbers: Vec<u32> = used.iter().map(number).collect();
-    mesh.triangles.iter_mut().flatten().for_each(|vertex| *vertex = numbers[*vertex as usize]);
-    if let Colors::Each(colors) = &mut mesh.colors {
-        keep(colors, &used);
-    }
-    if let Some(normals) = &mut mesh.normals {
-        keep(normals, &used);
-    }
-    keep(&mut mesh.positions, &used);
+    mesh.drop_unused_vertices();
     mesh
-}
-
-fn keep<T>(values: &mut Vec<T>, used: &[bool]) {
-    let mut used = used.iter();
-    values.retain(|_| *used.next().unwrap_or(&true));
 }

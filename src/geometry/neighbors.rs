@@ -8,7 +8,7 @@
 #[cfg(test)]
 mod tests;
 
-use std::{num::NonZero, ops::Range, thread};
+use std::{iter, num::NonZero, ops::Range, thread};
 
 use glam::DVec3;
 
@@ -111,15 +111,32 @@ impl Tree {
         found.then(|| Nearest { distance: best.distance.sqrt(), ..best })
     }
 
-    /// Hands the number of each point that is less than `reach` away from a place to `take`, with its distance.
-    pub(super) fn within(&self, target: DVec3, reach: f64, take: &mut dyn FnMut(u32, f64)) {
+    /// Hands each point that is less than `reach` away from a place to `take`, with its distance.
+    pub(super) fn within(&self, target: DVec3, reach: f64, take: &mut dyn FnMut(&Point, f64)) {
         let bound = reach * reach;
         self.search(0..self.points.len(), target, bound, &mut |place, squared| {
             if squared < bound {
-                take(self.points[place].number, squared.sqrt());
+                take(&self.points[place], squared.sqrt());
             }
             bound
         });
+    }
+
+    /// Places in groups of points that lie near each other, in the tree's order: nodes of up to `most` points, each with the middle
+    /// point before it.
+    pub(super) fn groups(&self, most: usize) -> Vec<Range<usize>> {
+        fn ends(node: Range<usize>, most: usize, into: &mut Vec<usize>) {
+            if node.len() <= most {
+                return into.push(node.end);
+            }
+            let middle = node.start + node.len() / 2;
+            ends(node.start..middle, most, into);
+            ends(middle + 1..node.end, most, into);
+        }
+        let mut found = Vec::new();
+        ends(0..self.points.len(), most, &mut found);
+        let starts = iter::once(0).chain(found.clone());
+        starts.zip(found).map(|(start, end)| start..end).collect()
     }
 
     /// The points in the tree's order, in which neighbors lie near each other; a *place* is an index of it.

@@ -40,7 +40,7 @@ mod text;
 
 use std::path::Path;
 
-use crate::{error::Result, progress::Progress};
+use crate::{error::Result, notes::Deed, progress::Progress};
 use input::Input;
 
 pub use foreign::runs_foreign_decoder;
@@ -107,6 +107,10 @@ fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress)
         }
     }?;
     refuse_nothing(&input, &loaded)?;
+    if let Model::Mesh(mesh) = &mut loaded.model {
+        let unused = mesh.drop_unused_vertices();
+        loaded.note(Deed::Dropped, unused as u64, "vertices without a face");
+    }
     if let Some(packing) = source.packing {
         loaded.format = format!("{} in {}", loaded.format, packing.name());
     }

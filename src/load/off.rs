@@ -195,6 +195,7 @@ impl Read {
                 positions: self.positions,
                 normals,
                 radii: None,
+                radii_in_doubt: false,
                 colors,
                 viewpoints: Vec::new(),
             }),

@@ -1,12 +1,14 @@
 //! A camera of which some is said, and the rest comes from the scene.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::DVec3;
 
 use super::{
     Ball, Camera,
     camera_view::{are_parallel, front, toward_eye},
 };
-use crate::error::{Error, Result};
+use crate::error::Result;
 
 /// Parts of a camera, in world space. Each may be missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -76,28 +78,27 @@ impl CameraParts {
         }
     }
 
-    /// The camera for a scene within a ball.
+    /// The camera for a scene within a ball. Where its eye looks along `up`, what is up in the picture is as for an eye right above or below
+    /// the target.
     ///
     /// # Errors
-    /// As [`Camera::validate`]; for an `up` that is parallel to the view from `eye`.
+    /// As [`Camera::validate`].
     pub fn camera(&self, ball: &Ball, size_px: [u32; 2]) -> Result<Camera> {
         let ball = self.subject.as_ref().unwrap_or(ball);
         let fit = Camera::fit(ball, size_px, self.fov_y_rad.unwrap_or(Camera::DEFAULT_FOV_Y_RAD));
         let target = self.target.unwrap_or(fit.target);
-        let (toward_eye, up) = self.direction();
-        let eye = self.eye.unwrap_or_else(|| target + fit.eye.distance(fit.target) * toward_eye);
-        if let Some(up) = up.filter(|up| are_parallel(*up, target - eye)) {
-            let problem = format!(
-                "{},{},{}: parallel to the view; expected another direction, or another --eye",
-                up.x, up.y, up.z
-            );
-            return Err(Error::option("--up", problem));
-        }
+        let (toward, up) = self.direction();
+        let eye = self.eye.unwrap_or_else(|| target + fit.eye.distance(fit.target) * toward);
+        let up = up.unwrap_or(fit.up);
+        // Right above or below, as by angles.
+        let up = match are_parallel(up, target - eye) {
+            true => toward_eye(Some(up), [0.0, FRAC_PI_2.copysign(up.dot(eye - target))])[1],
+            false => up,
+        };
         let orthographic_height = self.orthographic.map(|height| match height {
             PictureHeight::Fit => Camera::height_of(ball, size_px),
             PictureHeight::World(height) => height,
         });
-        let up = up.unwrap_or(fit.up);
         let camera = Camera { eye, target, up, near: self.near, orthographic_height, ..fit };
         let camera = self.zoom.map_or(camera, |zoom| camera.zoomed(zoom));
         camera.validate()?;
@@ -230,7 +231,11 @@ mod tests {
         );
         assert_eq!((narrow.or(zoomed).zoom, zoomed.or(narrow).fov_y_rad), (None, Some(0.1)));
         let above = CameraParts { eye: Some(ball.center + DVec3::Z), up: Some(DVec3::Z), ..none };
-        assert!(above.camera(&ball, [8, 8]).unwrap_err().to_string().starts_with("--up: 0,0,1: parallel"));
+        // As by angles.
+        let camera = above.camera(&ball, [8, 8]).unwrap();
+        assert_eq!((camera.eye, camera.up), (ball.center + DVec3::Z, DVec3::Y));
+        let below = CameraParts { eye: Some(ball.center - DVec3::Z), ..above };
+        assert_eq!(below.camera(&ball, [8, 8]).unwrap().up, DVec3::NEG_Y);
         let inside = CameraParts { eye: Some(ball.center), ..none };
         assert_eq!(inside.camera(&ball, [8, 8]).unwrap_err().exit_code(), 1);
         assert_eq!(inside.or(only_eye).or(narrow), CameraParts { eye: inside.eye, ..narrow });

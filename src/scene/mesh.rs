@@ -30,4 +30,42 @@ impl Mesh {
         let corners = (0..self.triangles.len()).filter_map(|i| self.corners(i)).flatten();
         corners.map(|corner| Bounds::of_ball(corner, 0.0)).reduce(Bounds::union)
     }
+
+    /// Leaves out vertices that no triangle has, and tells how many there were. Corners that are out of range stay so.
+    pub fn drop_unused_vertices(&mut self) -> usize {
+        let mut used = vec![false; self.positions.len()];
+        for &vertex in self.triangles.iter().flatten() {
+            if let Some(used) = used.get_mut(vertex as usize) {
+                *used = true;
+            }
+        }
+        let unused = used.iter().filter(|used| !**used).count();
+        if unused == 0 {
+            return 0;
+        }
+        let mut next = 0;
+        let number = |&used: &bool| {
+            let number = next;
+            next += u32::from(used);
+            number
+        };
+        let numbers: Vec<u32> = used.iter().map(number).collect();
+        for vertex in self.triangles.iter_mut().flatten() {
+            *vertex = numbers.get(*vertex as usize).map_or(*vertex, |number| *number);
+        }
+        if let Colors::Each(colors) = &mut self.colors {
+            keep(colors, &used);
+        }
+        if let Some(normals) = &mut self.normals {
+            keep(normals, &used);
+        }
+        keep(&mut self.positions, &used);
+        unused
+    }
+}
+
+fn keep<T>(values: &mut Vec<T>, used: &[bool]) {
+    let mut used = used.iter();
+    values.retain(|_| *used.next().unwrap_or(&true));
+    values.shrink_to_fit();
 }

@@ -13,6 +13,9 @@ pub struct Points {
     pub normals: Option<Vec<Vec3>>,
     /// The file's radii; `None` where it has none.
     pub radii: Option<Vec<f32>>,
+    /// The radii are sizes at which programs draw points: of some they are lengths, of others pixels. They are radii where they close the
+    /// surface without being far too large.
+    pub radii_in_doubt: bool,
     /// Colors of the points; [`Colors::unknown`] where the file has none.
     pub colors: Colors,
     /// The places from which they were seen, in their order, where the file tells all of them: the last one's `end` is the number

@@ -47,6 +47,19 @@ fn sides_are_seen_by_name_by_angles_and_by_scene_files() {
         folder.write("scene.toml", text);
         assert_eq!(middle(&folder, &["scene.toml"]), color, "{side}");
     }
+    // An eye that is given right above sees what the side from above does, and it is told what is up.
+    for up in ["y", "z"] {
+        let eye = if up == "y" { "0,9,0" } else { "0,0,9" };
+        let words = ["render", "sides.ply", "--up", up, "--eye", eye, "--size", "48x48", "-o", "b.png"];
+        let told = done(&folder, &words).stderr;
+        let expected =
+            format!("the view is along +{up}; up in the picture is {}", if up == "y" { "-z" } else { "+y" });
+        assert!(told.contains(&expected), "{told}");
+        assert_eq!(
+            middle(&folder, &["sides.ply", "--up", up, "--eye", eye]),
+            if up == "y" { [0, 0, 200] } else { cyan }
+        );
+    }
     // The command line comes first: an eye in place of a side.
     assert_eq!(middle(&folder, &["scene.toml", "--up", "y", "--eye", "0,0,9"]), cyan);
 }

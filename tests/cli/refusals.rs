@@ -12,14 +12,16 @@ use super::program::{Folder, Run, command, run};
 /// Beside 16 times the file, the program may take this much.
 const KIB: u64 = 64 << 10;
 
-/// Runs `info` on the file, and tells the most memory that it was seen to hold, in KiB; 0 where the system does not
-/// tell.
+/// Runs `info` on the file, and tells the most memory that it took, in KiB: what its allocator counted, or what the system saw that it
+/// held, whichever is more.
 ///
-/// The system keeps the peak, not just the present value, so that what is missed is at most what was taken within
-/// the last moment.
+/// The allocator knows what was asked for and never touched, the system what other libraries took. The system keeps the peak, not just the
+/// present value, so that what is missed is at most what was taken within the last moment.
 fn watched(folder: &Folder, name: &str) -> (Run, u64) {
-    let mut child =
-        command(folder, &["info", name]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let counted = folder.path("peak");
+    let mut program = command(folder, &["info", name]);
+    program.env("SURFEL_PEAK_FILE", &counted).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = program.spawn().unwrap();
     let (status, start) = (format!("/proc/{}/status", child.id()), Instant::now());
     let mut peak = 0;
     while child.try_wait().unwrap().is_none() {
@@ -32,7 +34,9 @@ fn watched(folder: &Folder, name: &str) -> (Run, u64) {
         }
         std::thread::sleep(Duration::from_micros(200));
     }
-    (run(child.wait_with_output().unwrap()), peak)
+    let counted: u64 = std::fs::read_to_string(counted).unwrap().parse().unwrap();
+    assert!(counted > 0);
+    (run(child.wait_with_output().unwrap()), peak.max(counted / 1024))
 }
 
 #[track_caller]
@@ -186,4 +190,17 @@ fn words_where_numbers_are_expected() {
     refused("a.csv", b"x,y,z\n0,0,0\n1,0\n", "line 3");
     refused("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 x 0\nf 1 2 3\n", "line 3");
     refused("a.off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "7");
+}
+
+/// Nothing is made of them before they are left out.
+#[test]
+fn small_vertices_that_no_face_uses() {
+    let count = 5_000_000;
+    let header = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {count}\nproperty uchar x\nproperty uchar y\n\
+        property uchar z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    );
+    // A face of one vertex three times.
+    let bytes = [header.as_bytes(), &vec![0; 3 * count], &[3], &[0; 12]].concat();
+    refused("a.ply", &bytes, "no splat can be drawn");
 }

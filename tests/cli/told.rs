@@ -21,7 +21,7 @@ fn grid(side: u32, z: f64) -> impl Iterator<Item = [f64; 3]> {
 fn convert_reads_as_render_does() {
     let folder = Folder::new();
     folder.write("odd.xyz", "7 0 0 0\n8 1 0 0\n9 0 1 0\n7 1 1 0\n");
-    let run = done(&folder, &["convert", "odd.xyz", "odd.ply", "--columns=-,x,y,z"]);
+    let run = done(&folder, &["convert", "odd.xyz", "odd.ply", "--columns", "-,x,y,z"]);
     assert!(
         run.stdout.starts_with("odd.xyz: 4 points: ") && run.stdout.contains(": 4 disks, "),
         "{}",
@@ -175,4 +175,43 @@ fn a_room_that_may_lie_on_its_back_is_doubted() {
         let run = done(&folder, &[&["render"], words, &SIZE].concat());
         assert_eq!(run.stderr.matches(doubt).count(), doubted, "{words:?}: {}", run.stderr);
     }
+}
+
+#[test]
+fn why_a_file_is_refused_is_the_only_line() {
+    let folder = Folder::new();
+    folder.write("good.xyz", rows(grid(5, 0.0)));
+    folder.write("extra.obj", format!("{CUBE}v 9 9 9\n"));
+    folder.write("bad.xyz", "0 0 0\n1 one 0\n");
+    for (words, start) in [
+        (&["render", "good.xyz", "bad.xyz", "-o", "a.png"][..], "surfel: bad.xyz: line 2: "),
+        (&["info", "extra.obj", "bad.xyz"], "surfel: bad.xyz: line 2: "),
+        (&["render", "extra.obj", "--strict", "-o", "a.png"], "surfel: extra.obj: 1 vertex without a face"),
+        (&["convert", "extra.obj", "a.ply", "--strict"], "surfel: extra.obj: 1 vertex without a face"),
+    ] {
+        let run = surfel(&folder, words);
+        assert!(run.code == 1 && run.stderr.starts_with(start), "{words:?}: {}", run.stderr);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    }
+    let told = done(&folder, &["render", "extra.obj", "-o", "a.png", "--size", "32x32"]).stderr;
+    assert!(told.contains("1 vertex without a face left out") && told.lines().count() > 1, "{told}");
+}
+
+#[test]
+fn sizes_of_points_are_radii_or_are_told_to_be_ignored() {
+    let folder = Folder::new();
+    let file = |size: f64| {
+        let body: String = grid(9, 0.0).map(|[x, y, z]| format!("{x} {y} {z} {size}\n")).collect();
+        let names = ["x", "y", "z", "psize"].map(|name| format!("property float {name}\n")).concat();
+        format!("ply\nformat ascii 1.0\nelement vertex 81\n{names}end_header\n{body}")
+    };
+    folder.write("lengths.ply", file(1.25));
+    folder.write("pixels.ply", file(5.0));
+    let lengths = done(&folder, &["convert", "lengths.ply", "a.ply"]).stdout;
+    assert!(lengths.starts_with("lengths.ply: 81 points: normals found from "), "{lengths}");
+    let pixels = done(&folder, &["convert", "pixels.ply", "b.ply"]).stdout;
+    assert!(pixels.contains("normals and radii found") && pixels.contains("81 sizes ignored"), "{pixels}");
+    assert!(
+        surfel(&folder, &["convert", "pixels.ply", "b.ply", "--strict"]).stderr.contains("no lengths here")
+    );
 }

@@ -66,6 +66,14 @@ pub fn peak_bytes() -> usize {
     PEAK_BYTES.load(Ordering::Relaxed)
 }
 
+/// Writes the most bytes of the whole run into the file that the environment variable `SURFEL_PEAK_FILE` names, if there is one: tests of
+/// files that are refused look at it.
+pub fn tell_peak() {
+    if let Some(path) = std::env::var_os("SURFEL_PEAK_FILE") {
+        let _ = std::fs::write(path, peak_bytes().to_string());
+    }
+}
+
 /// Raises the amounts that the C library keeps; call once, at the start. Nothing to do on other C libraries.
 pub fn keep_freed_memory() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]

@@ -2,6 +2,7 @@
 
 use std::{
     io::{self, Write as _},
+    mem,
     sync::{
         Mutex, MutexGuard, PoisonError,
         atomic::{AtomicBool, Ordering},
@@ -63,22 +64,22 @@ pub struct Repeated {
 
 impl Repeated {
     /// Tells a line once it is known how often it comes.
-    pub fn say(&mut self, line: &str) {
+    pub fn say(&mut self, line: &str, bars: &Bars) {
         match &mut self.last {
             Some((last, times)) if last == line => *times += 1,
             _ => {
-                self.end();
+                self.end(bars);
                 self.last = Some((line.to_owned(), 1));
             }
         }
     }
 
     /// Tells the last line.
-    pub fn end(&mut self) {
+    pub fn end(&mut self, bars: &Bars) {
         match self.last.take() {
             None => {}
-            Some((line, 1)) => say(&line),
-            Some((line, times)) => say(&format!("{times} × {line}")),
+            Some((line, 1)) => bars.note(&line),
+            Some((line, times)) => bars.note(&format!("{times} × {line}")),
         }
     }
 }
@@ -88,6 +89,8 @@ impl Repeated {
 pub struct Bars {
     /// The running task's name and its bar.
     running: Mutex<Option<(String, ProgressBar)>>,
+    /// Notes of work that may still fail.
+    held: Mutex<Option<Vec<String>>>,
 }
 
 impl Bars {
@@ -101,6 +104,21 @@ impl Bars {
         if let Some((_, bar)) = self.lock().take() {
             bar.finish_and_clear();
         }
+    }
+
+    /// Does work whose notes are told when it has succeeded: where it fails, why is the only line.
+    pub fn held<T>(&self, work: impl FnOnce() -> Result<T>) -> Result<T> {
+        let outer = self.notes().replace(Vec::new());
+        let done = work();
+        let notes = mem::replace(&mut *self.notes(), outer);
+        if done.is_ok() {
+            notes.iter().flatten().for_each(|note| self.note(note));
+        }
+        done
+    }
+
+    fn notes(&self) -> MutexGuard<'_, Option<Vec<String>>> {
+        self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn lock(&self) -> MutexGuard<'_, Option<(String, ProgressBar)>> {
@@ -138,6 +156,9 @@ impl Progress for Bars {
     }
 
     fn note(&self, text: &str) {
+        if let Some(held) = self.notes().as_mut() {
+            return held.push(text.to_owned());
+        }
         match self.lock().as_ref() {
             Some((_, bar)) => bar.suspend(|| say(text)),
             None => say(text),

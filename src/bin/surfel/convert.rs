@@ -106,18 +106,21 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     if let Some(rows) = larger_than_memory(arguments)? {
         return convert_in_parts(arguments, rows, &bars);
     }
-    let made = match arguments.resample {
-        Some(count) => resampled_file(arguments, count, &bars),
-        None if arguments.splats.is_some() || arguments.max_error.is_some() => {
-            sharpened_file(arguments, &bars)
+    let made = bars.held(|| {
+        let made = match arguments.resample {
+            Some(count) => resampled_file(arguments, count, &bars),
+            None if arguments.splats.is_some() || arguments.max_error.is_some() => {
+                sharpened_file(arguments, &bars)
+            }
+            None => load_object(&arguments.input, &arguments.reading.options(), &bars),
+        }?;
+        if arguments.reading.strict {
+            refuse_losses(&made.1)?;
         }
-        None => load_object(&arguments.input, &arguments.reading.options(), &bars),
-    };
+        Ok(made)
+    });
     bars.clear();
     let (object, report, up) = made?;
-    if arguments.reading.strict {
-        refuse_losses(&report)?;
-    }
     let summary = report.summary;
     if is_hierarchy(&arguments.output) {
         return write_hierarchy(arguments, object, up, &summary, &bars);

@@ -45,7 +45,9 @@ pub fn ready(
         let share = octrees.points() as f64 / (octrees.points() + splats) as f64;
         let most = arguments.budget_memory.map(|most| (most as f64 * share) as u64);
         arguments.budget_memory = arguments.budget_memory.zip(most).map(|(all, own)| all - own);
-        steps.time("read nodes", || octrees.read(scene, inputs, (camera, settings), most, bars))?;
+        steps.time("read nodes", || {
+            bars.held(|| octrees.read(scene, inputs, (camera, settings), most, bars))
+        })?;
     }
     let arguments = &arguments;
     let mut asked = settings.clone();

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use surfel::{
-    Result,
+    Progress as _, Result,
     geometry::FoundUp,
     levels_file::{LevelsFile, PageView, VERSION, is_levels_file},
     notes::counted,
@@ -47,13 +47,17 @@ impl Readers {
 /// # Errors
 /// As [`load_scene_with_hierarchies`] and [`Octrees::open`].
 pub fn load_scene_by_view(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
+    bars.held(|| load_by_view(inputs, bars))
+}
+
+fn load_by_view(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     let (octrees, others) = Octrees::open(inputs)?;
     let mut loaded = match (others.files.is_empty(), &octrees.files[..]) {
         (true, [first, ..]) => Loaded::of_nothing(first.ball()),
         _ => load_scene_with_hierarchies(&others, bars)?,
     };
     for (octree, report) in octrees.files.iter().zip(octrees.reports()) {
-        console::say(&report.summary);
+        bars.note(&report.summary);
         let because = format!("{} says so", report.name);
         loaded.ball = loaded.ball.union(octree.ball());
         loaded.up = loaded.up.take().or(Some(FoundUp { direction: glam::DVec3::Z, because }));
@@ -68,6 +72,10 @@ pub fn load_scene_by_view(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
 /// # Errors
 /// As [`load_scene`] and [`LevelsFile::open`].
 pub fn load_scene_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
+    bars.held(|| load_with_hierarchies(inputs, bars))
+}
+
+fn load_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     let is_hierarchy = |path: &std::path::PathBuf| is_levels_file(path);
     let (hierarchies, others): (Vec<_>, Vec<_>) = inputs.files.iter().cloned().partition(is_hierarchy);
     if hierarchies.is_empty() {
@@ -80,7 +88,7 @@ pub fn load_scene_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loade
     };
     for file in opened {
         let (ball, report) = (file.ball(), report(&file));
-        console::say(&report.summary);
+        bars.note(&report.summary);
         let up = file
             .header()
             .up

@@ -66,7 +66,9 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(exit) => return exit,
     };
-    match arguments.command.run() {
+    let done = arguments.command.run();
+    allocator::tell_peak();
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             console::fail(&error.to_string());

@@ -4,7 +4,7 @@
 //! points from fewer. What is read becomes splats as all points do, whose radii follow from how dense the points are.
 
 use surfel::{
-    Result,
+    Progress as _, Result,
     compose::make_loaded,
     levels_file::PageView,
     load::{NodeKey, ObjectDescription, PointOctree, file_name, is_point_octree},
@@ -83,7 +83,7 @@ impl Octrees {
             let nodes = choose(octree, (camera, settings), most_bytes.map(share))?;
             let (points, bytes) = octree.size_of(&nodes);
             let name = file_name(octree.path());
-            console::say(&format!(
+            bars.note(&format!(
                 "{name}: read {} nodes, {points} of {} points, {bytes} bytes",
                 nodes.len(),
                 octree.points()
@@ -95,7 +95,7 @@ impl Octrees {
             let built = make_loaded(loaded, &object, bars);
             bars.clear();
             let built = built?;
-            console::say(&built.report.summary);
+            bars.note(&built.report.summary);
             if self.inputs.strict {
                 refuse_losses(&built.report)?;
             }

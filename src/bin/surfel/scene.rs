@@ -19,7 +19,7 @@ use surfel::{
 };
 
 use crate::{
-    console::{self, Bars, Repeated},
+    console::{Bars, Repeated},
     inputs::Inputs,
     octrees::Octrees,
     up,
@@ -61,7 +61,11 @@ impl Loaded {
 /// As [`load_scene_file`] and [`build`]; two scene files that both have a camera; with `strict`, anything that is not drawn as
 /// its file says it.
 pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
-    let Described { objects, lights, camera, picture: (_, picture) } = describe(inputs)?;
+    bars.held(|| load_all(inputs, bars))
+}
+
+fn load_all(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
+    let Described { objects, lights, camera, picture: (_, picture) } = describe(inputs, bars)?;
     let mut steps = Vec::new();
     let mut ups = Vec::new();
     let mut lines = Repeated::default();
@@ -69,17 +73,17 @@ pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
         bars.clear();
         steps.extend(object.steps.iter().cloned());
         ups.extend(object.up.map(|up| (up, object.report.name.clone())));
-        lines.say(&object.report.summary);
+        lines.say(&object.report.summary, bars);
     });
     bars.clear();
-    lines.end();
+    lines.end(bars);
     let (scene, reports) = built?;
     if inputs.strict {
         reports.iter().try_for_each(refuse_losses)?;
     }
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
     let is_of_files = objects.iter().any(|object| matches!(object.source, Source::File(_)));
-    let up = up::of(ups).or_else(|| is_of_files.then(|| up_of_shape(&scene)).flatten());
+    let up = up::of(ups, bars).or_else(|| is_of_files.then(|| up_of_shape(&scene)).flatten());
     let camera = camera.map(|camera| camera.of(&scene)).transpose()?;
     Ok(Loaded {
         scene,
@@ -124,11 +128,13 @@ pub fn load_object(
 ) -> Result<(Object, InputReport, Option<DVec3>)> {
     let representation = Representation::Splats;
     let object = ObjectDescription { representation, ..ObjectDescription::of_file(path) };
-    let built = make(&object, options, bars);
-    bars.clear();
-    let built = built?;
-    let splats = built.splats.ok_or_else(|| Error::input(path, "", "has no splat"))?;
-    Ok((splats, built.report, built.up))
+    bars.held(|| {
+        let built = make(&object, options, bars);
+        bars.clear();
+        let built = built?;
+        let splats = built.splats.ok_or_else(|| Error::input(path, "", "has no splat"))?;
+        Ok((splats, built.report, built.up))
+    })
 }
 
 /// Why a file of splats or points can't be resampled.
@@ -180,7 +186,7 @@ impl DescribedCamera {
     }
 }
 
-fn describe(inputs: &Inputs) -> Result<Described> {
+fn describe(inputs: &Inputs, bars: &Bars) -> Result<Described> {
     let mut described = Described::default();
     let (representation, samples) = (inputs.representation, inputs.samples);
     let built_in = "the built-in model is made of splats; expected an input";
@@ -202,7 +208,7 @@ fn describe(inputs: &Inputs) -> Result<Described> {
         (inputs.files.iter().find(|file| is_scene_file(file)), &inputs.not_for_scene_files[..])
     {
         let options = others.iter().fold((*first).to_owned(), |all, other| format!("{all} and {other}"));
-        console::say(&format!(
+        bars.note(&format!(
             "{}: without {options}, as the keys of its objects say how they are drawn",
             file_name(file)
         ));

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 use surfel::{
+    Progress as _,
     geometry::FoundUp,
-    scene::{AXES, OptionValue as _},
+    scene::{AXES, Camera, OptionValue as _},
 };
 
-use crate::console;
+use crate::console::{self, Bars};
 
 /// `--up`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,16 +48,25 @@ fn word(direction: DVec3) -> String {
 }
 
 /// What the first of the files says that say something; it is told where another says something else.
-pub fn of(files: Vec<(DVec3, String)>) -> Option<FoundUp> {
+pub fn of(files: Vec<(DVec3, String)>, bars: &Bars) -> Option<FoundUp> {
     let (direction, name) = files.first()?;
     let name = if name == "-" { "standard input" } else { name };
     if let Some((other, of)) = files.iter().find(|(other, _)| other.distance(*direction) > 1e-3) {
         let [first, second] = [*direction, *other].map(word);
-        console::say(&format!(
-            "{of}: has {second} up, and {name} {first}, which is taken; --up says otherwise"
-        ));
+        bars.note(&format!("{of}: has {second} up, and {name} {first}, which is taken; --up says otherwise"));
     }
     Some(FoundUp { direction: *direction, because: format!("{name} says so") })
+}
+
+/// Whether a camera looks along a direction, and has another one up in the picture.
+pub fn is_along(up: DVec3, camera: &Camera) -> bool {
+    camera.up.angle_between(up) > 1.0
+}
+
+/// Tells that the picture has another direction up than was asked for.
+pub fn tell_another(asked: DVec3, taken: DVec3) {
+    let [asked, taken] = [asked, taken].map(word);
+    console::say(&format!("the view is along {asked}; up in the picture is {taken}"));
 }
 
 /// Tells that nothing was found of what may well have z up.

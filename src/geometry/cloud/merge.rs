@@ -54,6 +54,7 @@ pub(super) fn merge(points: Points) -> Merged {
         positions: groups.iter().map(|group| position(&group[0])).collect(),
         normals: points.normals.as_ref().map(|n| groups.iter().map(|group| sum_normal(n, group)).collect()),
         radii: points.radii.as_ref().map(|r| groups.iter().map(|group| radius(r, group)).collect()),
+        radii_in_doubt: points.radii_in_doubt,
         colors: match &points.colors {
             Colors::Uniform(color) => Colors::Uniform(*color),
             Colors::Each(colors) => Colors::Each(groups.iter().map(|group| mean(colors, group)).collect()),
@@ -92,6 +93,7 @@ mod tests {
             positions: vec![DVec3::X, DVec3::ZERO, nan, DVec3::X, DVec3::new(-0.0, 0.0, -0.0), DVec3::Y],
             normals: Some(vec![Vec3::X, Vec3::Z, Vec3::Z, 3.0 * Vec3::Y, Vec3::Z, Vec3::Z]),
             radii: None,
+            radii_in_doubt: false,
             colors: Colors::Each([0.0, 1.0, 0.5, 0.5, 1.0, 0.25].map(|v| [v; 4]).into()),
             viewpoints: vec![Viewpoint { end: 4, place: DVec3::X }, Viewpoint { end: 6, place: DVec3::Y }],
         };

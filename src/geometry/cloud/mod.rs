@@ -1,13 +1,13 @@
 //! Points become splats: normals and radii that the file does not have, from the points nearby.
 //!
-//! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`], in coarser steps where there is
-//! [`noise`]; normals are turned to one
-//! side ([`orient`]); isolated points are left out ([`outliers`]); disks [`reach`] as far as closes the surface. All of it is the
-//! same whatever the number of threads.
+//! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`], or the one of their [`sheets`]
+//! that it lies on, in coarser steps where there is [`noise`]; normals are turned to one side ([`orient`]); isolated points are left
+//! out ([`outliers`]); disks [`reach`] as far as closes the surface. All of it is the same whatever the number of threads.
 //!
 //! Splats are round: ellipses take half as much memory again (48 bytes on the device instead of 32), and gain only where points lie
 //! much denser along one direction than across.
 
+mod fit;
 mod merge;
 mod noise;
 mod orient;
@@ -15,8 +15,11 @@ mod outliers;
 mod plane;
 mod reach;
 mod report;
+mod sheets;
 #[cfg(test)]
 mod tests;
+
+use std::ops::RangeInclusive;
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -40,6 +43,9 @@ const BATCH: usize = 1 << 16;
 
 /// The radius of a point that is alone: there is nothing to measure it by.
 const ALONE: f64 = 1.0;
+
+/// Sizes that are radii, in those that were found: such disks close the surface, and are not as large as those that are limited.
+const CLOSE: RangeInclusive<f32> = (1.0 / DEFAULT_OVERLAP) as f32..=4.0;
 
 /// Cosine of the angle between normals from which on a neighbor is of another face: its disk is half as wide then as seen from
 /// here, and its share of the surface beside an edge is not covered by it alone.
@@ -150,7 +156,7 @@ impl Cloud {
         };
         let coarse = match self.tree.points().iter().enumerate().all(|(place, _)| of_file(place).is_some()) {
             true => None,
-            false => noise::coarse_tree(&self.tree),
+            false => noise::coarse_tree(&self.tree).map(|coarse| noise::normals(&self.tree, &coarse)),
         };
         let one = |[first, more]: &mut [Vec<DVec3>; 2], place: usize| {
             let mut near = self.near::<NEIGHBORS>(place);
@@ -159,7 +165,7 @@ impl Cloud {
             let spread = six.iter().map(|o| o.length()).sum::<f64>() / six.len().max(1) as f64;
             let normal = of_file(place).unwrap_or_else(|| {
                 if let Some(coarse) = &coarse {
-                    return noise::fit(coarse, self.place(place), MOST_NEIGHBORS).normal;
+                    return coarse[place];
                 }
                 let mut wider = [u32::MAX; MOST_NEIGHBORS];
                 let plane = plane::plane(offsets, || {
@@ -243,8 +249,9 @@ impl Cloud {
             let number = self.tree.points()[place].number as usize;
             points.radii.as_ref().map(|radii| radii[number]).filter(|r| *r > 0.0 && r.is_finite())
         };
+        let own = |place: usize| of_file(place).filter(|_| !points.radii_in_doubt);
         let one = |scratch: &mut (Vec<DVec3>, Cells), place: usize| {
-            of_file(place).unwrap_or_else(|| (DEFAULT_OVERLAP * self.reach(place, scratch)) as f32)
+            own(place).unwrap_or_else(|| (DEFAULT_OVERLAP * self.reach(place, scratch)) as f32)
         };
         let mut radii = Vec::new();
         radii.reserve_exact(count);
@@ -254,7 +261,19 @@ impl Cloud {
             radii.par_extend(batch.map_init(Default::default, one));
         }
         steps.done(1, count, count);
-        report.radii_from_file = (0..count).filter(|&place| of_file(place).is_some()).count();
+        let from_file = (0..count).filter(|&place| of_file(place).is_some()).count();
+        if points.radii_in_doubt && from_file > 0 {
+            let close =
+                |&place: &usize| of_file(place).is_some_and(|size| CLOSE.contains(&(size / radii[place])));
+            if 2 * (0..count).filter(close).count() < from_file {
+                report.sizes_ignored = from_file;
+            } else {
+                radii.iter_mut().enumerate().for_each(|(place, radius)| {
+                    *radius = of_file(place).unwrap_or(*radius);
+                });
+            }
+        }
+        report.radii_from_file = from_file - report.sizes_ignored;
         if report.radii_from_file > 0 {
             return radii;
         }

@@ -14,31 +14,35 @@ const LARGEST: f32 = 4.0;
 /// Whether each point is isolated; `spreads` are mean distances of neighbors.
 pub(super) fn isolated(neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<bool> {
     let is_isolated = |(near, &spread): (&[u32; NEIGHBORS], &f64)| {
-        median(near, |j| spreads[j]).is_some_and(|median| spread > ISOLATED * median)
+        median_below(spread / ISOLATED, near, |j| spreads[j]).is_some()
     };
     neighbors.par_iter().zip(spreads).map(is_isolated).collect()
 }
 
 /// Radii without those that are far too large.
 pub(super) fn limit_radii(neighbors: &[[u32; NEIGHBORS]], radii: &[f32]) -> Vec<f32> {
-    let limited = |(near, &radius): (&[u32; NEIGHBORS], &f32)| match median(near, |j| f64::from(radii[j])) {
-        Some(median) if radius > LARGEST * median as f32 && median > 0.0 => median as f32,
+    let limited = |(near, &radius): (&[u32; NEIGHBORS], &f32)| match median_below(
+        f64::from(radius / LARGEST),
+        near,
+        |j| f64::from(radii[j]),
+    ) {
+        Some(median) if median > 0.0 => median as f32,
         _ => radius,
     };
     neighbors.par_iter().zip(radii).map(limited).collect()
 }
 
-/// The lower median of the neighbors' values; `None` without neighbors.
-fn median(near: &[u32; NEIGHBORS], value: impl Fn(usize) -> f64) -> Option<f64> {
+/// The lower median of the neighbors' values where it is below `limit`: then it is that of those below.
+fn median_below(limit: f64, near: &[u32; NEIGHBORS], value: impl Fn(usize) -> f64) -> Option<f64> {
+    let near = near.iter().filter(|j| **j != u32::MAX).map(|j| value(*j as usize));
+    let lower_middle = near.clone().count().checked_sub(1)? / 2;
     let mut values = [f64::INFINITY; NEIGHBORS];
-    let mut len = 0;
-    for &j in near.iter().filter(|j| **j != u32::MAX) {
-        values[len] = value(j as usize);
-        len += 1;
-    }
-    let values = &mut values[..len];
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(len.saturating_sub(1) / 2).copied()
+    let below =
+        values.iter_mut().zip(near.filter(|value| *value < limit)).map(|(to, value)| *to = value).count();
+    (below > lower_middle).then(|| {
+        values.sort_unstable_by(f64::total_cmp);
+        values[lower_middle]
+    })
 }
 
 #[cfg(test)]

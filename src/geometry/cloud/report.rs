@@ -47,6 +47,8 @@ pub struct CloudReport {
     pub sides: Sides,
     /// Points whose radius was taken from the file.
     pub radii_from_file: usize,
+    /// Sizes of points in the file that are no radii.
+    pub sizes_ignored: usize,
     /// Disks over 4 times as large as the median of those around them, which they got instead.
     pub limited: usize,
 }
@@ -65,6 +67,7 @@ impl CloudReport {
                 self.limited,
                 "radii as those around them, in place of far larger ones,",
             ),
+            Note::of(Deed::Ignored, self.sizes_ignored, "sizes of points, which are no lengths here,"),
             Note::of(Deed::Computed, computed, "normals"),
             Note::of(Deed::Turned, computed, &format!("normals, {},", self.sides.words())),
             Note::of(Deed::Computed, splats.saturating_sub(self.radii_from_file), "radii"),
@@ -98,6 +101,7 @@ impl fmt::Display for CloudReport {
             (self.isolated, "isolated point", "isolated points", "left out"),
             (self.not_finite, "point not finite", "points not finite", "left out"),
             (self.limited, "radius", "radii", "limited"),
+            (self.sizes_ignored, "size", "sizes", "ignored"),
         ];
         let told = parts.into_iter().filter(|part| part.0 > 0);
         let told: Vec<_> =

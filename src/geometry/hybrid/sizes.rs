@@ -90,8 +90,8 @@ impl Sizes {
         let mut at_marks = even.at_marks;
         for mark in even.marks.points() {
             let radius = &mut at_marks[mark.number as usize];
-            small.within(mark.position, (1.0 - LEAST) * inside / GROWTH, &mut |place, distance| {
-                *radius = radius.min(alone[place as usize] + GROWTH * distance);
+            small.within(mark.position, (1.0 - LEAST) * inside / GROWTH, &mut |small, distance| {
+                *radius = radius.min(alone[small.number as usize] + GROWTH * distance);
             });
         }
         Self { at_marks, ..even }

@@ -94,7 +94,7 @@ impl Scans {
             false => Colors::unknown(),
         };
         let positions = std::mem::take(&mut self.positions);
-        Points { positions, normals: None, radii: None, colors, viewpoints }
+        Points { positions, normals: None, radii: None, radii_in_doubt: false, colors, viewpoints }
     }
 }
 

@@ -152,6 +152,7 @@ impl<'a> Surface<'a> {
                     positions: points.clone().filter_map(|i| self.positions.get(i)).copied().collect(),
                     normals: normals.is_some().then(|| points.clone().map(pick).collect()),
                     radii: None,
+                    radii_in_doubt: false,
                     colors: match colors {
                         Colors::Each(each) => {
                             Colors::Each(points.filter_map(|i| each.get(i)).copied().collect())

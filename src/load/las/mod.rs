@@ -76,8 +76,14 @@ fn uncompressed<'a>(input: &Input<'a>, header: &Header) -> Result<Vec<Chunk<'a>>
 pub(in crate::load) fn loaded(columns: Columns, palette: Option<Palette>, words: &str) -> Loaded {
     let palette = palette.unwrap_or_else(|| Palette::of(&columns));
     let (colors, of_colors) = palette.colors(&columns);
-    let points =
-        Points { positions: columns.positions, normals: None, radii: None, colors, viewpoints: Vec::new() };
+    let points = Points {
+        positions: columns.positions,
+        normals: None,
+        radii: None,
+        radii_in_doubt: false,
+        colors,
+        viewpoints: Vec::new(),
+    };
     let mut loaded = Loaded::new(Model::Points(points), format!("{words}{of_colors}"));
     loaded.up = Some(DVec3::Z);
     loaded.note(Deed::Dropped, columns.noise, "points of the classes for noise (7 and 18)");

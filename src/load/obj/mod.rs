@@ -132,7 +132,8 @@ fn points(input: &Input<'_>, file: &mut Vertices) -> Result<Loaded> {
     let other_normals = if file.normals.len() == count { 0 } else { file.normals.len() as u64 };
     let normals = (file.normals.len() == count).then(|| mem::take(&mut file.normals));
     let positions = mem::take(&mut file.positions);
-    let points = Points { positions, normals, radii: None, colors, viewpoints: Vec::new() };
+    let points =
+        Points { positions, normals, radii: None, radii_in_doubt: false, colors, viewpoints: Vec::new() };
     let mut loaded = Loaded::new(Model::Points(points), "OBJ");
     loaded.note(Deed::Ignored, other_normals, "normals, of which there is not one for each point,");
     loaded.note(Deed::Clamped, beyond, "colors beyond 0 to 1");

@@ -36,15 +36,21 @@ fn source(name: &str, bytes: Vec<u8>) -> Source<Cursor<Vec<u8>>> {
     Source { path: name.into(), bytes: bytes.len() as u64, reader: Cursor::new(bytes) }
 }
 
-fn of_copc(bytes: Vec<u8>) -> Result<PointOctree<Cursor<Vec<u8>>>> {
+type Opened = Result<PointOctree<Cursor<Vec<u8>>>>;
+
+fn of_copc(bytes: Vec<u8>) -> Opened {
     PointOctree::of_copc(source("a.copc.laz", bytes), &small())
 }
 
-fn of_potree([metadata, hierarchy, nodes]: [Vec<u8>; 3]) -> Result<PointOctree<Cursor<Vec<u8>>>> {
+fn of_potree(files: [Vec<u8>; 3]) -> Opened {
+    of_potree_within(files, &small().limits)
+}
+
+fn of_potree_within([metadata, hierarchy, nodes]: [Vec<u8>; 3], limits: &Limits) -> Opened {
     let path = Path::new("metadata.json");
     let opened = potree::read(path, &metadata, hierarchy.len() as u64)?;
     let files = [source("hierarchy.bin", hierarchy), source("octree.bin", nodes)];
-    PointOctree::of_potree(path, opened, files, &small().limits)
+    PointOctree::of_potree(path, opened, files, limits)
 }
 
 /// A few bytes may not be a million points here.
@@ -275,4 +281,23 @@ fn potree_of_other_kinds_and_wrong_hierarchies_are_refused() {
 fn entries_of(metadata: &str) -> String {
     let bytes = metadata.split("\"firstChunkSize\": ").nth(1).unwrap().split(',').next().unwrap();
     format!("{} entries", bytes.parse::<usize>().unwrap() / 22)
+}
+
+#[test]
+fn points_have_a_limit() {
+    let (copc, potree) = (octree(100).copc(1).0, octree(100).potree(1));
+    for (most, refused) in [(100, false), (99, true)] {
+        let mut options = small();
+        options.limits.points = most;
+        let opened = [
+            PointOctree::of_copc(source("a.copc.laz", copc.clone()), &options),
+            of_potree_within(potree.clone(), &options.limits),
+        ];
+        for opened in opened {
+            assert_eq!(opened.is_err(), refused);
+            if let Err(error) = opened {
+                assert!(error.to_string().ends_with("expected at most 99"), "{error}");
+            }
+        }
+    }
 }

@@ -82,8 +82,14 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
         (false, false) => (Colors::unknown(), 0),
     };
     let viewpoints = Viewpoint::of_all(positions.len(), header.viewpoint);
-    let points =
-        Points { positions, normals: has_normals.then_some(normals), radii: None, colors, viewpoints };
+    let points = Points {
+        positions,
+        normals: has_normals.then_some(normals),
+        radii: None,
+        radii_in_doubt: false,
+        colors,
+        viewpoints,
+    };
     let used = |field: &Field| wanted.iter().flatten().any(|used| used.index == field.index);
     let ignored: Vec<&str> = header
         .fields

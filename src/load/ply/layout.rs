@@ -16,6 +16,8 @@ pub(super) struct Layout {
     pub normal: Option<[usize; 3]>,
     /// In units of the positions.
     pub radius: Option<usize>,
+    /// In an unknown unit.
+    pub size: Option<usize>,
     /// `su_x … sv_z`, the scaled tangent vectors.
     pub tangents: Option<[[usize; 3]; 2]>,
     /// On the tangent vectors.
@@ -50,8 +52,7 @@ pub(super) struct Gaussian {
 const COLORS: [[&str; 3]; 3] =
     [["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"], ["r", "g", "b"]];
 
-/// Sizes at which programs draw points: in pixels with some, in no known unit with others, half or whole. The distances of
-/// neighbors tell more.
+/// Sizes at which programs draw points: lengths with some, pixels with others, half or whole. The distances of neighbors tell which.
 const SIZES: [&str; 5] = ["psize", "psz", "size", "point_size", "pointsize"];
 
 impl Layout {
@@ -194,11 +195,8 @@ impl Finder<'_> {
         let tangents = self.group(tangents);
         self.layout.tangents = tangents.map(|[a, b, c, d, e, f]| [[a, b, c], [d, e, f]]);
         self.layout.radius = if tangents.is_none() { self.one("radius") } else { None };
-        if self.layout.radius.is_none()
-            && tangents.is_none()
-            && let Some(size) = SIZES.into_iter().find(|name| self.def.scalar(name).is_some())
-        {
-            self.ignore(&format!("sizes '{size}', whose unit nobody tells,"));
+        if self.layout.radius.is_none() && tangents.is_none() {
+            self.layout.size = SIZES.into_iter().find_map(|name| self.one(name));
         }
     }
 }

@@ -150,14 +150,17 @@ fn mesh(read: Read, format: String) -> (Loaded, u64) {
 
 /// Splats where the file has all that makes them.
 fn splats_or_points(read: Read, closed: bool, format: String) -> (Loaded, u64) {
-    let Vertices { positions, normals, radii, tangents, clips, colors: file_colors, .. } = read.vertices;
+    let Vertices { positions, normals, radii, sizes, tangents, clips, colors: file_colors, .. } =
+        read.vertices;
     let (colors, beyond) = colors(file_colors);
     let shapes = match (tangents, normals, radii) {
         (Some((s, t)), ..) => Shapes::Ellipses { s, t },
         (None, Some(normals), Some(radii)) => Shapes::Disks { normals, radii },
         (None, normals, radii) => {
             let viewpoints = Viewpoint::of_all(positions.len(), read.viewpoint);
-            let points = Points { positions, normals, radii, colors, viewpoints };
+            let radii_in_doubt = radii.is_none();
+            let points =
+                Points { positions, normals, radii: radii.or(sizes), radii_in_doubt, colors, viewpoints };
             return (Loaded::new(Model::Points(points), format), beyond);
         }
     };

@@ -20,6 +20,8 @@ pub(super) struct Vertices {
     /// Beside tangent vectors, a normal gives only the side, and is not kept.
     pub normals: Option<Vec<Vec3>>,
     pub radii: Option<Vec<f32>>,
+    /// In an unknown unit.
+    pub sizes: Option<Vec<f32>>,
     pub tangents: Option<(Vec<Vec3>, Vec<Vec3>)>,
     pub clips: Option<FileClips>,
     pub colors: Option<FileColors>,
@@ -35,6 +37,7 @@ impl Vertices {
             positions: Vec::with_capacity(count),
             normals: (layout.normal.is_some() && !has_tangents).then(|| Vec::with_capacity(count)),
             radii: layout.radius.map(|_| Vec::with_capacity(count)),
+            sizes: layout.size.map(|_| Vec::with_capacity(count)),
             tangents: has_tangents.then(|| (Vec::with_capacity(count), Vec::with_capacity(count))),
             clips: layout.clips.map(|_| FileClips::default()),
             colors: colors(layout, count),
@@ -48,8 +51,10 @@ impl Vertices {
         if let (Some(normals), Some(columns)) = (&mut self.normals, layout.normal) {
             normals.extend(table.vectors(columns).map(|normal| normal.as_vec3()));
         }
-        if let (Some(radii), Some(column)) = (&mut self.radii, layout.radius) {
-            radii.extend(table.column(column).iter().map(|&radius| radius as f32));
+        for (lengths, column) in [(&mut self.radii, layout.radius), (&mut self.sizes, layout.size)] {
+            if let (Some(lengths), Some(column)) = (lengths, column) {
+                lengths.extend(table.column(column).iter().map(|&length| length as f32));
+            }
         }
         let new = self.positions.len() - self.clips.as_ref().map_or(0, |clips| clips.each.len());
         if let (Some(clips), Some(columns)) = (&mut self.clips, &layout.clips) {

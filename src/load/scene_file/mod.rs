@@ -32,6 +32,9 @@ use document::{Document, Table, one_line};
 /// About what a thousand objects take: what is larger is something else, and the parser takes a hundred times as much.
 pub const MOST_SCENE_FILE_BYTES: u64 = 256 << 10;
 
+/// How deep arrays and tables may nest: as deep as the crate toml goes.
+const MOST_NESTED: usize = 80;
+
 /// The most objects of a scene file.
 pub const MOST_OBJECTS: usize = 1024;
 
@@ -55,7 +58,11 @@ fn parse(path: &Path, text: &str, options: &LoadOptions) -> Result<SceneFile> {
     let document = Document { path, text };
     let parsed = DeTable::parse(text).map_err(|e| {
         let at = e.span().map_or(0, |span| span.start);
-        document.fault(at, "", &format!("not TOML: {}", one_line(e.message())))
+        let problem = match e.message().starts_with("cannot recurse") {
+            true => format!("nested too deeply; expected at most {MOST_NESTED} levels"),
+            false => format!("not TOML: {}", one_line(e.message())),
+        };
+        document.fault(at, "", &problem)
     })?;
     let root = Table::of(
         &document,

@@ -48,6 +48,7 @@ fn loaded(rows: Rows, layout: &Layout) -> Loaded {
         positions: rows.positions,
         normals: (!rows.normals.is_empty()).then_some(rows.normals),
         radii: (!rows.radii.is_empty()).then_some(rows.radii),
+        radii_in_doubt: false,
         colors,
         viewpoints: Vec::new(),
     };

@@ -93,15 +93,15 @@ fn one_scene_is_one_picture_from_any_format_and_anywhere() {
     let mut polygons = Vec::new();
     for origin in [DVec3::ZERO, FAR] {
         let folder = Folder::new();
-        write(&folder, points::files(&points::ball(origin)));
-        write(&folder, meshes::files(origin));
+        let of_points = write(&folder, points::files(&points::ball(origin)));
+        let of_meshes = write(&folder, meshes::files(origin));
         // Formats of scans have z up, the others leave it open.
         let picture = |name: &str| {
             done(&folder, &["render", name, "--up", "z", "--size", "64x48", "-o", "a.png"]);
             (format!("{name} at {origin}"), png(&folder.path("a.png")).pixels)
         };
-        clouds.extend(["binary.ply", "a.csv", "a.laz", "a.e57"].map(picture));
-        polygons.extend(["mesh.glb", "mesh.off"].map(picture));
+        clouds.extend(of_points.into_iter().map(picture));
+        polygons.extend(of_meshes.into_iter().map(picture));
     }
     for pictures in [clouds, polygons] {
         let [(_, first), others @ ..] = &pictures[..] else { panic!("no picture") };

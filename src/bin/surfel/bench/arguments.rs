@@ -52,7 +52,7 @@ pub struct BenchArguments {
     #[arg(value_name = "NAME")]
     pub table: Bench,
 
-    /// A PLY or OBJ file; for table1, slides, growth, p1, p2 and hybrid a mesh, which is resampled evenly over its area and for growth must be
+    /// A model of any kind that `surfel render` reads; for table1, slides, growth, p1, p2 and hybrid a mesh, which is resampled evenly over its area and for growth must be
     /// closed; for i1 to i3 a mesh with sharp edges; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition and hybrid the built-in sphere]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,

@@ -88,7 +88,7 @@ impl CameraChoice {
         };
         let subject = object.as_ref().map(|name| ball_named(name, loaded)).transpose()?;
         let options = CameraParts { subject, ..parts };
-        match &loaded.camera {
+        let camera = match &loaded.camera {
             None => as_shaped(options, loaded).camera(&loaded.ball, size_px),
             Some((path, parts)) => {
                 let camera = as_shaped(options.or(*parts), loaded).camera(&loaded.ball, size_px);
@@ -97,7 +97,11 @@ impl CameraChoice {
                     _ => error,
                 })
             }
+        }?;
+        if let Some(up) = parts.up.filter(|up| up::is_along(*up, &camera)) {
+            up::tell_another(up, camera.up);
         }
+        Ok(camera)
     }
 }
 

@@ -37,7 +37,7 @@ pub struct FigureArguments {
     #[arg(long, value_name = "WxH", requires = "name", value_parser = parse::size)]
     pub size: Option<[u32; 2]>,
 
-    /// The PLY or OBJ file that g5 (a mesh), p17, p19, p20, and i1, i9 and i10 (a mesh with sharp edges) show [default: the built-in model with few triangles
+    /// The model that g5 (a mesh), p17, p19, p20, and i1, i9 and i10 (a mesh with sharp edges) show [default: the built-in model with few triangles
     /// or splats; for i1, i9 and i10 the built-in part]
     #[arg(long, value_name = "FILE", requires = "name")]
     pub model: Option<PathBuf>,

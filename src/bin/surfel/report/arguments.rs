@@ -31,7 +31,7 @@ pub struct ReportArguments {
     #[arg(short, long, value_name = "DIR", default_value = "surfel-report")]
     pub output: PathBuf,
 
-    /// A PLY or OBJ file [default: the built-in model]
+    /// A model of any kind that `surfel render` reads [default: the built-in model]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 

@@ -49,11 +49,11 @@ impl Surfaces {
         (at.extend(side * thickness), DVec3::new(0.0, 0.0, 2.0 * side))
     }
 
-    /// A sphere with 10 times as many points a unit of area at the top as at the bottom.
-    pub fn uneven(&mut self) -> Sample {
+    /// 10 times as many points a unit of area at x = 1 as at x = −1.
+    pub fn uneven(&mut self, mut one: impl FnMut(&mut Self) -> Sample) -> Sample {
         loop {
-            let (p, normal) = self.sphere();
-            if self.unit() < 0.1 + 0.45 * (p.z + 1.0) {
+            let (p, normal) = one(self);
+            if self.unit() < 0.1 + 0.45 * (p.x.clamp(-1.0, 1.0) + 1.0) {
                 return (p, normal);
             }
         }

@@ -112,13 +112,14 @@ fn incomplete_groups_are_left_out_and_noted() {
 }
 
 #[test]
-fn a_radius_is_one_and_sizes_of_unknown_units_are_noted() {
+fn a_radius_is_one_and_sizes_of_unknown_units_are_in_doubt() {
     let radius = points(&cloud(&of_type("radius", "float"), "1 2 3 0.5\n"));
-    assert_eq!(radius.radii, Some(vec![0.5]));
+    assert_eq!((radius.radii, radius.radii_in_doubt), (Some(vec![0.5]), false));
     for name in ["psize", "psz", "size"] {
-        let file = cloud(&of_type(name, "float"), "1 2 3 0.5\n");
-        assert!(points(&file).radii.is_none());
-        assert_eq!(notes(&file), [format!("1 size '{name}', whose unit nobody tells, ignored")]);
+        let sizes = points(&cloud(&of_type(name, "float"), "1 2 3 0.5\n"));
+        assert_eq!((sizes.radii, sizes.radii_in_doubt), (Some(vec![0.5]), true));
+        let both = points(&cloud(&of_type(&format!("{name} radius"), "float"), "1 2 3 0.5 0.25\n"));
+        assert_eq!((both.radii, both.radii_in_doubt), (Some(vec![0.25]), false));
     }
 }
 

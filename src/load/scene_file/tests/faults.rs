@@ -19,10 +19,16 @@ fn a_file_that_is_no_scene_file() {
         let error = place.read(text).unwrap_err();
         assert!(error.starts_with(&format!("scene.toml: {expected}")), "{error}");
     }
+    for (levels, expected) in
+        [(MOST_NESTED, "unknown key 'a'"), (MOST_NESTED + 1, "nested too deeply; expected at most 80 levels")]
+    {
+        let error = place.read(format!("a = {}{}\n", "[".repeat(levels), "]".repeat(levels))).unwrap_err();
+        assert!(error.starts_with(&format!("scene.toml: line 1: {expected}")), "{error}");
+    }
     // So deep that a parser that calls itself, or a table that drops itself, would run out of stack.
     for [open, middle, close] in [["[", "", "]"], ["{a=", "1", "}"], ["{a.a=", "1", "}"]] {
         let deep = format!("object = {}{middle}{}", open.repeat(40_000), close.repeat(40_000));
-        assert!(place.read(deep).unwrap_err().starts_with("scene.toml: line 1: not TOML: "), "{open}");
+        assert!(place.read(deep).unwrap_err().starts_with("scene.toml: line 1: nested too deeply"), "{open}");
     }
     let dotted = format!("a{}", ".a".repeat(100_000));
     for deep in [format!("{dotted} = 1\n"), format!("[{dotted}]\n"), format!("[[{dotted}]]\n")] {
