@@ -204,7 +204,7 @@ fn runs_leave_out_no_more_than_their_blocks() {
         println!("{count}: {most_runs} runs at most; {wanted} blocks may be seen, {listed:?} are listed");
         let share = listed.map(|listed| listed as f64 / wanted as f64);
         // Roughly twice as many, of what is near and half outside; closely a fifth more.
-        assert!(most_runs <= 1200 && share[0] <= 2.5 && share[1] <= 1.2, "{count}: {share:?}");
+        assert!(most_runs <= 4000 && share[0] <= 2.5 && share[1] <= 1.2, "{count}: {share:?}");
     }
     assert!(as_wholes > 300 && left_to_device > 100, "{as_wholes} {left_to_device}");
 }

@@ -9,7 +9,7 @@ use crate::{
 
 /// Looks at bounds of a chunk, beside those on top; and where memory for lists is short, so that it matters how many splats may be in which rows.
 const MOST_LOOKS: usize = 256;
-const MOST_CLOSE_LOOKS: usize = 2048;
+const MOST_CLOSE_LOOKS: usize = 16_384;
 
 /// The blocks of a chunk some of whose splats may be seen, in their order. What is left out here, every stage that sets splats up
 /// would leave out: what faces away, what is nearer than the near plane, and what is beside the image, by the bounds of
@@ -45,7 +45,7 @@ pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
         front.extend(runs.map(|run| {
             let closer = match run.all_seen {
                 false => Closer::First,
-                true if closely && run.rows.len() > 1 => Closer::Perhaps,
+                true if closely => Closer::Perhaps,
                 true => Closer::No,
             };
             (run, closer)
@@ -92,7 +92,7 @@ pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
 enum Closer {
     /// Some of it may not be seen.
     First,
-    /// All of it is seen, in several rows.
+    /// All of it is seen; its parts are in fewer rows, and have smaller boxes.
     Perhaps,
     No,
 }
