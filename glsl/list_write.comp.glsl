@@ -20,7 +20,7 @@ void main()
         return;
     }
     uint first = first_word_of_chunk();
-    uint first_splat = first_splat_of(word);
+    uint first_splat = first_splat_of(block_of(word), word);
     uint place = starts[first + word];
     for (uint bits = marked_bits[first + word]; bits != 0; bits &= bits - 1) {
         items[place] = first_splat + findLSB(bits);

@@ -35,7 +35,7 @@ void main()
     if (word >= words_of_chunk()) {
         return;
     }
-    uint first = first_splat_of(word);
+    uint first = first_splat_of(block_of(word), word);
     uint end = min(first + WORD, frame.splat_count);
     uint bits = 0;
     for (uint index = first; index < end; index++) {

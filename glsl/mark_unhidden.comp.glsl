@@ -56,9 +56,10 @@ void main()
     }
     uint place = first_word_of_chunk() + word;
     uint unhidden = visible_bits[place];
+    uint first = first_splat_of(block_of(word), word);
     for (uint bits = unhidden; bits != 0; bits &= bits - 1) {
         uint i = findLSB(bits);
-        unhidden &= is_hidden(first_splat_of(word) + i) ? ~(1u << i) : 0xffffffffu;
+        unhidden &= is_hidden(first + i) ? ~(1u << i) : 0xffffffffu;
     }
     unhidden_bits[place] = unhidden;
 }

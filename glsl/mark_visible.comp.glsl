@@ -61,15 +61,16 @@ void main()
     if (word >= words_of_chunk()) {
         return;
     }
-    uint first = first_splat_of(word);
+    uint block = block_of(word);
+    uint first = first_splat_of(block, word);
     uint end = min(first + WORD, frame.splat_count);
     uint all = first < end ? 0xffffffffu >> (WORD - (end - first)) : 0;
     uint bits = all;
-    if (LEVELS != LEVELS_NONE && all != 0 && !is_known(word, ALL_OF_LEVEL)) {
+    if (LEVELS != LEVELS_NONE && all != 0 && !is_known(block, ALL_OF_LEVEL)) {
         bits = bits_of_level(first / WORD);
     }
     // All invocations of a vector are in one block, so that it ends here where there is nothing to find.
-    for (uint index = is_known(word, ALL_VISIBLE) ? end : first; index < end; index++) {
+    for (uint index = is_known(block, ALL_VISIBLE) ? end : first; index < end; index++) {
         uint bit = 1u << (index - first);
         if ((bits & bit) != 0 && !may_be_seen(index)) {
             bits &= ~bit;

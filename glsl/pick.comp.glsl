@@ -52,10 +52,11 @@ void main()
     if (word >= words_of_chunk()) {
         return;
     }
-    uint first = first_splat_of(word);
+    uint block = block_of(word);
+    uint first = first_splat_of(block, word);
     uint end = min(first + WORD, frame.splat_count);
     uint bits = 0xffffffff;
-    if (LEVELS != LEVELS_NONE && first < end && !is_known(word, ALL_OF_LEVEL)) {
+    if (LEVELS != LEVELS_NONE && first < end && !is_known(block, ALL_OF_LEVEL)) {
         bits = bits_of_level(first / WORD);
     }
     vec2 px = 0.5 - frame.middle_px;

@@ -194,6 +194,10 @@ enum SurfelStructureType
    * `SurfelDynamicSplats`.
    */
   SURFEL_STRUCTURE_TYPE_DYNAMIC_SPLATS = 10,
+  /**
+   * `SurfelHostImage`.
+   */
+  SURFEL_STRUCTURE_TYPE_HOST_IMAGE = 11,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -577,7 +581,7 @@ typedef struct SurfelRendering {
   const void *pNext;
   /**
    * The formats of its color attachments. The first is drawn to, then come those of `ids` and `motion`; the others are left as they are. For
-   * more than one the device needs `SURFEL_FEATURE_INDEPENDENT_BLEND`.
+   * more than one the device needs `SURFEL_FEATURE_INDEPENDENT_BLEND`. None: depth alone is drawn, of what is opaque.
    */
   const VkFormat *colorFormats;
   /**
@@ -781,6 +785,57 @@ typedef struct SurfelFrame {
    */
   double clipFromViewBefore[16];
 } SurfelFrame;
+
+/**
+ * An image of the host's that a view is drawn onto: with the format and samples that its rendering has, one layer, one mip level; usage
+ * `VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT` or `VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT`; of the family of the queue, or shared with it.
+ */
+typedef struct SurfelHostImage {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_HOST_IMAGE`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelHostImage)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * The image.
+   */
+  VkImage image;
+  /**
+   * A view of all of it.
+   */
+  VkImageView view;
+  /**
+   * What was done with it just before; that is waited for.
+   */
+  VkPipelineStageFlags2 beforeStages;
+  /**
+   * As `beforeStages`.
+   */
+  VkAccessFlags2 beforeAccess;
+  /**
+   * What will be done with it just after.
+   */
+  VkPipelineStageFlags2 afterStages;
+  /**
+   * As `afterStages`.
+   */
+  VkAccessFlags2 afterAccess;
+  /**
+   * The layout in which it is; `VK_IMAGE_LAYOUT_UNDEFINED`: nothing is in it, and it is cleared, color to 0, depth to what is farthest.
+   */
+  VkImageLayout beforeLayout;
+  /**
+   * The layout in which it is left.
+   */
+  VkImageLayout afterLayout;
+} SurfelHostImage;
 
 /**
  * Is told of a pass: its name, valid during the call, and its seconds, below 0 where they were not measured. Must return.
@@ -988,6 +1043,18 @@ SurfelResult surfel_view_prepare(struct SurfelView *view, VkCommandBuffer comman
  * Clobbers the pipeline, viewport and scissor, and of the graphics bind point set 0 and push constants.
  */
 SurfelResult surfel_view_draw(const struct SurfelView *view, VkCommandBuffer commands);
+
+/**
+ * Records all of a frame: `surfel_view_prepare`, then a rendering onto these images with `surfel_view_draw` in it, and barriers around it.
+ * `colors` leads to as many pointers as the rendering that the view was made for has formats, each to an image, NULL where a format is 0.
+ * `depth`: NULL where the rendering has none. The images hold the view's area, and must not be destroyed before the commands have run.
+ */
+SurfelResult surfel_view_record(struct SurfelView *view,
+                                VkCommandBuffer commands,
+                                const struct SurfelFrame *frame,
+                                const struct SurfelHostImage *const *colors,
+                                uint32_t colorCount,
+                                const struct SurfelHostImage *depth);
 
 /**
  * Tells how long each pass took of the frame that was prepared last, in their order, once it has finished; nothing if it was not `timed`.

@@ -5,60 +5,20 @@ use std::ffi::c_void;
 use surfel::{
     Settings,
     ash::vk,
-    embed::{DepthImage, HostCamera, ImageState, Placed, Placement, ViewFrame},
+    embed::{HostCamera, Placed, Placement, ViewFrame},
     glam::DMat4,
     graph::execute::Profile,
 };
 
 use crate::{
-    handle::{get, null},
+    handle::get,
+    images::{SurfelDepthImage, depth_image},
     renderer::SurfelPreparedScene,
     result::{Failure, Result},
     settings::SurfelSettings,
-    splats::copy,
+    splats::array,
     structs::{Struct, SurfelStructureType, read},
 };
-
-/// The depth of what a host has drawn so far.
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct SurfelDepthImage {
-    /// `SURFEL_STRUCTURE_TYPE_DEPTH_IMAGE`.
-    pub s_type: u32,
-    /// `sizeof(SurfelDepthImage)`.
-    pub size: u32,
-    /// NULL.
-    pub p_next: *const c_void,
-    /// One sample a pixel, one layer, one mip level; usage `VK_IMAGE_USAGE_SAMPLED_BIT`.
-    pub image: vk::Image,
-    /// A view of its depth alone.
-    pub view: vk::ImageView,
-    /// What was done with it just before; its writes are waited for.
-    pub before_stages: vk::PipelineStageFlags2,
-    /// As `beforeStages`.
-    pub before_access: vk::AccessFlags2,
-    /// What will be done with it just after.
-    pub after_stages: vk::PipelineStageFlags2,
-    /// As `afterStages`.
-    pub after_access: vk::AccessFlags2,
-    /// The layout in which it is.
-    pub before_layout: vk::ImageLayout,
-    /// The layout in which it is left.
-    pub after_layout: vk::ImageLayout,
-    /// Its format.
-    pub format: vk::Format,
-    /// Its width in pixels.
-    pub width: u32,
-    /// Its height in pixels.
-    pub height: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-// SAFETY: it begins so, and a test looks for padding.
-unsafe impl Struct for SurfelDepthImage {
-    const TYPE: SurfelStructureType = SurfelStructureType::DepthImage;
-}
 
 /// What a view shows in a frame, and from where. Matrices are columns of four numbers, 16 in all.
 #[repr(C)]
@@ -119,14 +79,54 @@ unsafe impl Struct for SurfelFrame {
     const TYPE: SurfelStructureType = SurfelStructureType::Frame;
 }
 
+/// Memory for the list of a frame's scenes, which is kept between frames, and nothing in it.
+#[derive(Default)]
+pub struct SceneList(Vec<Placed<'static>>);
+
+impl SceneList {
+    fn take<'a>(&mut self) -> Vec<Placed<'a>> {
+        emptied(std::mem::take(&mut self.0))
+    }
+
+    fn give_back(&mut self, list: Vec<Placed<'_>>) {
+        self.0 = emptied(list);
+    }
+}
+
+/// The same memory for scenes that live for another time. The list that is collected takes the place of the one it is collected from.
+fn emptied<'b>(mut list: Vec<Placed<'_>>) -> Vec<Placed<'b>> {
+    list.clear();
+    list.into_iter().filter_map(|_| None).collect()
+}
+
 /// Calls `then` with the frame that C means.
 ///
 /// # Safety
 /// Pointers are NULL or lead to as much as the struct says.
-pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) -> Result<()>) -> Result<()> {
+pub unsafe fn with_frame(
+    given: &SurfelFrame,
+    kept: &mut SceneList,
+    then: impl FnOnce(&ViewFrame<'_>) -> Result<()>,
+) -> Result<()> {
+    let mut scenes = kept.take();
+    // SAFETY: this function's contract.
+    let answer = unsafe { with_scenes(given, &mut scenes, then) };
+    kept.give_back(scenes);
+    answer
+}
+
+/// The same, with the list of scenes, which it fills.
+///
+/// # Safety
+/// As [`with_frame`].
+unsafe fn with_scenes<'a>(
+    given: &SurfelFrame,
+    scenes: &mut Vec<Placed<'a>>,
+    then: impl FnOnce(&ViewFrame<'_>) -> Result<()>,
+) -> Result<()> {
     let count = u64::from(given.scene_count);
     // SAFETY: this function's contract, here and below; so many are given.
-    let of_scenes = unsafe { copy(given.scenes, count, "scenes", |scene| scene) }?;
+    let of_scenes: &[*const SurfelPreparedScene] = unsafe { array(given.scenes, count, "scenes") }?;
     // SAFETY: as above.
     let [matrices, before] = unsafe {
         [
@@ -137,18 +137,17 @@ pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) 
     // SAFETY: as above.
     let (ids, tints) =
         unsafe { (each(given.ids, count, "ids")?, each(given.tints.cast::<[f32; 4]>(), count, "tints")?) };
-    let mut scenes = Vec::new();
-    for (i, scene) in of_scenes.into_iter().enumerate() {
+    for (i, scene) in of_scenes.iter().enumerate() {
         // SAFETY: as above.
-        let scene = unsafe { get(scene, "a scene") }?;
+        let scene: &'a SurfelPreparedScene = unsafe { get(*scene, "a scene") }?;
         let placement = |matrices: &[[f64; 16]], when: &str| {
             let placed = |matrix| Placement::of_matrix(&DMat4::from_cols_array(matrix));
             let at = matrices.get(i).map(placed).transpose();
             at.map_err(|error| Failure { text: format!("scene {i}{when}: {error}"), ..Failure::from(error) })
         };
-        let plain = Placed::new(&scene.0, placement(&matrices, "")?.unwrap_or_default());
+        let plain = Placed::new(&scene.0, placement(matrices, "")?.unwrap_or_default());
         scenes.push(Placed {
-            before: placement(&before, ", before")?,
+            before: placement(before, ", before")?,
             id: ids.get(i).copied().unwrap_or_default(),
             tint: tints.get(i).copied().unwrap_or(plain.tint),
             ..plain
@@ -175,7 +174,7 @@ pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) 
     let was = HostCamera { view_from_world, clip_from_view, ..camera };
     let moved = matrices_before.as_flattened().iter().any(|number| *number != 0.0);
     then(&ViewFrame {
-        scenes: &scenes,
+        scenes,
         camera: &camera,
         camera_before: moved.then_some(&was),
         settings: &settings,
@@ -190,25 +189,10 @@ pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) 
 ///
 /// # Safety
 /// `from` is NULL or leads to `count` of them.
-unsafe fn each<T: Copy>(from: *const T, count: u64, name: &str) -> Result<Vec<T>> {
+unsafe fn each<'a, T: Copy>(from: *const T, count: u64, name: &str) -> Result<&'a [T]> {
     match from.is_null() {
-        true => Ok(Vec::new()),
+        true => Ok(&[]),
         // SAFETY: this function's contract.
-        false => unsafe { copy(from, count, name, |it| it) },
+        false => unsafe { array(from, count, name) },
     }
-}
-
-fn depth_image(given: &SurfelDepthImage) -> Result<DepthImage> {
-    if given.image == vk::Image::null() || given.view == vk::ImageView::null() {
-        return Err(null("hides: image or view"));
-    }
-    let state = |stages, access, layout| ImageState { stages, access, layout };
-    Ok(DepthImage {
-        image: given.image,
-        view: given.view,
-        format: given.format,
-        extent: vk::Extent2D { width: given.width, height: given.height },
-        before: state(given.before_stages, given.before_access, given.before_layout),
-        after: state(given.after_stages, given.after_access, given.after_layout),
-    })
 }

@@ -4,6 +4,7 @@
 //! (`result.rs`). Structs that C fills grow at their ends (`structs.rs`).
 
 mod handle;
+mod images;
 mod structs;
 
 // From here on in the order of the header.

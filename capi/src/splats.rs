@@ -100,27 +100,35 @@ pub unsafe fn object(given: &SurfelSplats) -> Result<Object> {
     Ok(Object { name: name.to_owned(), splats, closed: given.closed != vk::FALSE })
 }
 
-/// An array of C's as one of ours.
+/// An array of C's.
 ///
 /// # Safety
-/// `from` is NULL or leads to `count` of them.
-pub unsafe fn copy<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> U) -> Result<Vec<U>> {
+/// `from` is NULL or leads to `count` of them, which stay as they are for so long.
+pub unsafe fn array<'a, T: Copy>(from: *const T, count: u64, name: &str) -> Result<&'a [T]> {
     let most = isize::MAX as u64 / size_of::<T>() as u64;
-    let mut all = Vec::new();
     match usize::try_from(count) {
-        Ok(0) => Ok(all),
+        Ok(0) => Ok(&[]),
         _ if from.is_null() => Err(null(name)),
         _ if !from.is_aligned() => Err(Failure::invalid(format!("{name} is not aligned"))),
-        Ok(length) if count <= most => {
-            let no_memory = |_| Failure {
-                code: SurfelResult::OutOfMemory,
-                text: format!("{name}: no memory for {count} of them"),
-            };
-            all.try_reserve_exact(length).map_err(no_memory)?;
-            // SAFETY: this function's contract; not null, aligned, of a size that memory can have.
-            all.extend(unsafe { std::slice::from_raw_parts(from, length) }.iter().map(|value| of(*value)));
-            Ok(all)
-        }
+        // SAFETY: this function's contract; not null, aligned, of a size that memory can have.
+        Ok(length) if count <= most => Ok(unsafe { std::slice::from_raw_parts(from, length) }),
         _ => Err(Failure::invalid(format!("{name}: {count} of them don't fit into memory"))),
     }
+}
+
+/// The same as one of ours.
+///
+/// # Safety
+/// As [`array`].
+pub unsafe fn copy<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> U) -> Result<Vec<U>> {
+    // SAFETY: this function's contract.
+    let given = unsafe { array(from, count, name) }?;
+    let no_memory = |_| Failure {
+        code: SurfelResult::OutOfMemory,
+        text: format!("{name}: no memory for {count} of them"),
+    };
+    let mut all = Vec::new();
+    all.try_reserve_exact(given.len()).map_err(no_memory)?;
+    all.extend(given.iter().map(|value| of(*value)));
+    Ok(all)
 }

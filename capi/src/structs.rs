@@ -32,6 +32,8 @@ pub enum SurfelStructureType {
     Frame = 9,
     /// `SurfelDynamicSplats`.
     DynamicSplats = 10,
+    /// `SurfelHostImage`.
+    HostImage = 11,
 }
 
 /// How each begins.

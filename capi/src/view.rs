@@ -11,11 +11,12 @@ use surfel::{
 };
 
 use crate::{
-    frame::{SurfelFrame, with_frame},
+    frame::{SceneList, SurfelFrame, with_frame},
     handle::{Out, destroy, get, get_mut, null},
+    images::{SurfelHostImage, host_image},
     renderer::SurfelRenderer,
     result::{Failure, Result, SurfelResult, guard},
-    splats::copy,
+    splats::{array, copy},
     structs::{Struct, SurfelStructureType, read},
 };
 
@@ -23,6 +24,7 @@ use crate::{
 pub struct SurfelView {
     view: View,
     renderer: Arc<Renderer>,
+    scenes: SceneList,
 }
 
 /// What the host's rendering is, within which a view is drawn: as in `VkPipelineRenderingCreateInfo`.
@@ -36,7 +38,7 @@ pub struct SurfelRendering {
     /// NULL.
     pub p_next: *const c_void,
     /// The formats of its color attachments. The first is drawn to, then come those of `ids` and `motion`; the others are left as they are. For
-    /// more than one the device needs `SURFEL_FEATURE_INDEPENDENT_BLEND`.
+    /// more than one the device needs `SURFEL_FEATURE_INDEPENDENT_BLEND`. None: depth alone is drawn, of what is opaque.
     pub color_formats: *const vk::Format,
     /// How many there are.
     pub color_format_count: u32,
@@ -110,7 +112,11 @@ pub unsafe extern "C" fn surfel_view_create(
         // SAFETY: as above.
         let rendering = unsafe { rendering_of(&read(rendering, "rendering")?) }?;
         let renderer = Arc::clone(&renderer.0);
-        out.give(SurfelView { view: View::new(&renderer, &rendering)?, renderer })
+        out.give(SurfelView {
+            view: View::new(&renderer, &rendering)?,
+            renderer,
+            scenes: SceneList::default(),
+        })
     })
 }
 
@@ -125,13 +131,13 @@ pub unsafe extern "C" fn surfel_view_prepare(
 ) -> SurfelResult {
     guard("surfel_view_prepare", || {
         // SAFETY: the contract of the header, here and below.
-        let (SurfelView { view, renderer }, frame) =
+        let (SurfelView { view, renderer, scenes }, frame) =
             unsafe { (get_mut(view, "view")?, read(frame, "frame")?) };
         if commands == vk::CommandBuffer::null() {
             return Err(null("commands"));
         }
         // SAFETY: as above.
-        unsafe { with_frame(&frame, |frame| Ok(view.prepare(renderer, commands, frame)?)) }
+        unsafe { with_frame(&frame, scenes, |frame| Ok(view.prepare(renderer, commands, frame)?)) }
     })
 }
 
@@ -145,7 +151,7 @@ pub unsafe extern "C" fn surfel_view_draw(
 ) -> SurfelResult {
     guard("surfel_view_draw", || {
         // SAFETY: the contract of the header, here and below.
-        let SurfelView { view, renderer } = unsafe { get(view, "view") }?;
+        let SurfelView { view, renderer, .. } = unsafe { get(view, "view") }?;
         if commands == vk::CommandBuffer::null() {
             return Err(null("commands"));
         }
@@ -153,6 +159,49 @@ pub unsafe extern "C" fn surfel_view_draw(
         Ok(unsafe { view.draw(renderer, commands) }?)
     })
 }
+
+/// Records all of a frame: `surfel_view_prepare`, then a rendering onto these images with `surfel_view_draw` in it, and barriers around it.
+/// `colors` leads to as many pointers as the rendering that the view was made for has formats, each to an image, NULL where a format is 0.
+/// `depth`: NULL where the rendering has none. The images hold the view's area, and must not be destroyed before the commands have run.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_view_record(
+    view: *mut SurfelView,
+    commands: vk::CommandBuffer,
+    frame: *const SurfelFrame,
+    colors: *const *const SurfelHostImage,
+    color_count: u32,
+    depth: *const SurfelHostImage,
+) -> SurfelResult {
+    guard("surfel_view_record", || {
+        // SAFETY: the contract of the header, here and below.
+        let (SurfelView { view, renderer, scenes }, frame) =
+            unsafe { (get_mut(view, "view")?, read(frame, "frame")?) };
+        if commands == vk::CommandBuffer::null() {
+            return Err(null("commands"));
+        }
+        if color_count > MOST_IMAGES as u32 {
+            let text = format!("colorCount is {color_count}: expected at most {MOST_IMAGES}");
+            return Err(Failure::invalid(text));
+        }
+        // SAFETY: as above.
+        let given = unsafe { array(colors, color_count.into(), "colors") }?;
+        let mut images = [None; MOST_IMAGES];
+        for (image, color) in images.iter_mut().zip(given) {
+            // SAFETY: as above.
+            *image = unsafe { host_image(*color, "a color") }?;
+        }
+        // SAFETY: as above.
+        let depth = unsafe { host_image(depth, "depth") }?;
+        let colors = &images[..given.len()];
+        // SAFETY: as above.
+        unsafe {
+            with_frame(&frame, scenes, |frame| Ok(view.record(renderer, commands, frame, colors, depth)?))
+        }
+    })
+}
+
+/// As many color attachments as a view's rendering has at most.
+const MOST_IMAGES: usize = 8;
 
 /// Is told of a pass: its name, valid during the call, and its seconds, below 0 where they were not measured. Must return.
 pub type SurfelPassTime = Option<unsafe extern "C" fn(user: *mut c_void, name: *const c_char, secs: f64)>;

@@ -72,7 +72,7 @@ pub struct Engine {
     pub enabled: surfel::embed::Features,
     pub style: Style,
     pub depth: Attachment,
-    color: Attachment,
+    pub color: Attachment,
     /// Where samples are resolved to; the color itself where each pixel has one.
     resolved: Attachment,
     /// Numbers of objects and motion, where the style has them.

@@ -33,20 +33,20 @@ struct LevelView {
     float weight_of_share;  // one over the difference of both
 };
 
-// Behind all blocks, that of the last chunk first.
+// Behind all runs of blocks, that of the last chunk first.
 LevelView level_view()
 {
-    uint first = visible_blocks.length() - LEVEL_WORDS * (CHUNK + 1);
+    uint first = visible_words.length() - LEVEL_WORDS * (CHUNK + 1);
     vec3 eye = vec3(
-        uintBitsToFloat(visible_blocks[first]),
-        uintBitsToFloat(visible_blocks[first + 1]),
-        uintBitsToFloat(visible_blocks[first + 2]));
+        uintBitsToFloat(visible_words[first]),
+        uintBitsToFloat(visible_words[first + 1]),
+        uintBitsToFloat(visible_words[first + 2]));
     return LevelView(
         eye,
-        uintBitsToFloat(visible_blocks[first + 3]),
-        uintBitsToFloat(visible_blocks[first + 4]),
-        uintBitsToFloat(visible_blocks[first + 5]),
-        uintBitsToFloat(visible_blocks[first + 6]));
+        uintBitsToFloat(visible_words[first + 3]),
+        uintBitsToFloat(visible_words[first + 4]),
+        uintBitsToFloat(visible_words[first + 5]),
+        uintBitsToFloat(visible_words[first + 6]));
 }
 
 // What a ball's spread is over to be a share of the focal length.

@@ -2,10 +2,10 @@
 // ("large"). A bit each; how many come before each word of bits; their numbers. One invocation a word of bits, so that nothing has to
 // be handed on.
 //
-// Visible ones are looked for in the blocks of BLOCK_SPLATS splats that the host lists: not those that face away, nor those elsewhere.
-// Before the blocks are the rows of tiles that splats are looked for in: the first, and that behind the last. Bits of all chunks lie
-// one behind the other, those of each from `frame.first_record` on, which begins a block. Large ones are looked for in all blocks of a
-// chunk, which has bits of its own.
+// Visible ones are looked for in blocks of BLOCK_SPLATS splats, those that the host lists: not those that face away, nor those elsewhere. It lists runs of blocks, of
+// all chunks one behind the other, each by the place of its first block among all that are listed, and the number of that block in its chunk. Before the runs are the rows
+// of tiles that splats are looked for in, the first, and that behind the last; and how many runs there are. Bits of all chunks lie one behind the other, those of each from
+// `frame.first_record` on, which begins a block. Large ones are looked for in all blocks of a chunk, which has bits of its own.
 
 #include "inc/groups.glsl"
 
@@ -20,7 +20,8 @@ layout(constant_id = SPEC_LARGE_LIST) const bool LARGE_LIST = false;
 #endif
 layout(set = 1, binding = LIST_BLOCKS, std430) readonly buffer Blocks {
     uvec2 visible_rows;
-    uint visible_blocks[];
+    uint visible_runs;
+    uint visible_words[]; // two a run
 };
 
 uint words_of_chunk()
@@ -33,20 +34,33 @@ uint first_word_of_chunk()
     return frame.first_record / WORD;
 }
 
+// The block of one of the chunk's words, in its chunk, with what the host knows of all of its splats.
 uint block_of(uint word)
 {
-    return visible_blocks[frame.first_record / BLOCK_SPLATS + word / BLOCK_WORDS];
+    if (LARGE_LIST) {
+        return word / BLOCK_WORDS;
+    }
+    uint place = frame.first_record / BLOCK_SPLATS + word / BLOCK_WORDS;
+    // The last run that begins no later.
+    uint run = 0;
+    for (uint end = visible_runs; end - run > 1;) {
+        uint middle = (run + end) / 2;
+        if (visible_words[2 * middle] <= place) {
+            run = middle;
+        } else {
+            end = middle;
+        }
+    }
+    return visible_words[2 * run + 1] + (place - visible_words[2 * run]);
 }
 
-// What the host knows of all splats of a block.
-bool is_known(uint word, uint what)
+bool is_known(uint block, uint what)
 {
-    return (block_of(word) & what) != 0;
+    return (block & what) != 0;
 }
 
-// The splat of the first bit of one of the chunk's words.
-uint first_splat_of(uint word)
+// The splat of the first bit of one of the chunk's words, which is of this block.
+uint first_splat_of(uint block, uint word)
 {
-    uint block = LARGE_LIST ? word / BLOCK_WORDS : block_of(word) & ~(ALL_VISIBLE | ALL_OF_LEVEL);
-    return block * BLOCK_SPLATS + word % BLOCK_WORDS * WORD;
+    return (block & ~(ALL_VISIBLE | ALL_OF_LEVEL)) * BLOCK_SPLATS + word % BLOCK_WORDS * WORD;
 }

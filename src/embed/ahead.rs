@@ -17,7 +17,7 @@ impl Renderer {
         let frame = ViewFrame { missing: MissingPipelines::Make, profile: None, ..*frame };
         let mut view = View::new(self, rendering)?;
         // SAFETY: the view is new, nothing is recorded, and so the depth image not looked at.
-        unsafe { view.record(&Arena::new(), self, None, &frame) }?;
+        unsafe { view.record_passes(&Arena::new(), self, None, &frame) }?;
         Ok(self.pipelines_made() - before)
     }
 

@@ -5,10 +5,22 @@ use ash::vk;
 use super::{View, frame::ViewFrame};
 use crate::{
     error::{Error, Result},
-    scene::{Camera, DepthOfHost, HostCamera},
+    scene::{Camera, DepthOfHost, HostCamera, Settings, Shading},
 };
 
 impl View {
+    /// The settings that its passes have: the background is the host's picture; where only depth is drawn, nothing shines.
+    pub(super) fn settings_of(&self, frame: &ViewFrame<'_>) -> Settings {
+        let asked = frame.settings;
+        let shading = match asked.shading {
+            // Its edges are of its own.
+            Shading::EyeDome => asked.shading,
+            _ if !self.rendering.has_color() => Shading::Albedo,
+            _ => asked.shading,
+        };
+        Settings { background: None, shading, ..asked.clone() }
+    }
+
     /// Refuses a camera whose depth grows where the rendering's test has it fall: all would be hidden, or nothing; of parallel rays a picture that is
     /// turned over, too.
     pub(super) fn check_order(&self, depth: DepthOfHost) -> Result<()> {

@@ -4,6 +4,7 @@
 //! 2. [`Renderer::upload`] records the upload of a scene into the engine's commands.
 //! 3. Each frame, [`View::prepare`] records all passes, outside of rendering, and [`View::draw`] one to three draws within the engine's own
 //!    rendering: splats are hidden by what the engine has drawn and hide what it draws later, by the engine's own depth and its comparison.
+//!    Or [`View::record`] does both, onto images of the engine's.
 //! 4. [`Device::end_epoch`] at each submission, [`Device::epoch_done`] once the device has finished it: what was dropped goes then.
 //!
 //! `docs/embedding.md` tells all of it: state, threads, lifetimes.
@@ -15,6 +16,7 @@ mod draw;
 mod frame;
 mod images;
 mod motion;
+mod onto;
 mod over;
 mod scenes;
 mod table;
@@ -28,10 +30,11 @@ pub use crate::{
     renderer::Renderer,
     scene::{HostCamera, Placement},
     vk::{
-        Device, Features, HostAllocation, HostMemory, Import, MemoryRequest, MemoryUse, Requirements,
-        requirements,
+        Device, Features, FeaturesApart, HostAllocation, HostMemory, Import, MemoryRequest, MemoryUse,
+        Requirements, requirements,
     },
 };
 pub use frame::{DepthImage, ViewFrame};
+pub use onto::HostImage;
 pub use over::{NO_ID, Rendering};
 pub use view::View;

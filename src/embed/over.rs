@@ -14,7 +14,7 @@ use crate::{
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rendering {
     /// The formats of its color attachments. The first is drawn to, then come those of [`Self::ids`] and [`Self::motion`]; the others are left as they are. For more than
-    /// one the device needs `independentBlend`.
+    /// one the device needs `independentBlend`. None: depth alone is drawn, as for a map of shadows, of what is opaque.
     pub color_formats: Vec<vk::Format>,
     /// The format of its depth attachment; `UNDEFINED`: there is none, and all of the view is drawn.
     pub depth_format: vk::Format,
@@ -75,6 +75,16 @@ impl Rendering {
         }
     }
 
+    /// Whether light is drawn; else depth alone is, and what writes none is left out.
+    pub(super) fn has_color(&self) -> bool {
+        !self.color_formats.is_empty()
+    }
+
+    /// What a view draws at most.
+    pub(super) fn parts(&self) -> &'static [Part] {
+        if self.has_color() { &[Part::Covering, Part::CoveringLess, Part::Layers] } else { &[Part::Covering] }
+    }
+
     pub(super) fn has_depth(&self) -> bool {
         self.depth_format != vk::Format::UNDEFINED
     }
@@ -94,7 +104,13 @@ impl Rendering {
             properties.optimal_tiling_features.contains(use_)
         };
         let first = self.color_formats.first().copied().unwrap_or_default();
-        if first == vk::Format::UNDEFINED || !can(first, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND) {
+        if !self.has_color() && !self.has_depth() {
+            return refused(
+                "color_formats",
+                "there is neither color nor depth: expected one of them".to_owned(),
+            );
+        }
+        if self.has_color() && !can(first, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND) {
             return refused(
                 "color_formats",
                 format!("the first is {first:?}: expected one that can be blended in"),

@@ -19,10 +19,10 @@ use crate::{
         execute::{FrameProfile, Physical},
     },
     inline_vec::InlineVec,
-    passes::{self, HostDepth, Inputs, Place, Source, Tints, host::BesideHost},
+    passes::{self, HostDepth, Inputs, Place, Source, SurfacePlan, Tints, host::BesideHost},
     prepare::NO_TINT,
     renderer::{Imports, Renderer},
-    scene::{Edges, Settings},
+    scene::Edges,
     shaders::config::{BIND_SUMS_COLORS, BIND_SUMS_DEPTH},
     vk::{Descriptor, Device, PoolSizes},
 };
@@ -70,8 +70,8 @@ impl View {
     /// [`crate::ErrorKind::Option`] for a rendering that the device does not have, or that compares depths in no order; whatever the driver answers.
     pub fn new(renderer: &Renderer, rendering: &Rendering) -> Result<Self> {
         rendering.check(renderer.device())?;
-        for part in [Part::Covering, Part::CoveringLess, Part::Layers] {
-            renderer.shaders.graphics(rendering.key(part))?;
+        for part in rendering.parts() {
+            renderer.shaders.graphics(rendering.key(*part))?;
         }
         let device = renderer.device().clone();
         let slot = FrameSlot::new(&device);
@@ -104,7 +104,7 @@ impl View {
     ) -> Result<()> {
         let arena = self.slot.take_arena();
         // SAFETY: this function's contract.
-        let recorded = unsafe { self.record(&arena, renderer, Some(commands), frame) };
+        let recorded = unsafe { self.record_passes(&arena, renderer, Some(commands), frame) };
         self.slot.give_back(arena);
         recorded
     }
@@ -113,7 +113,7 @@ impl View {
     ///
     /// # Safety
     /// As [`Self::prepare`].
-    pub(super) unsafe fn record(
+    pub(super) unsafe fn record_passes(
         &mut self,
         arena: &Arena,
         renderer: &Renderer,
@@ -121,7 +121,7 @@ impl View {
         frame: &ViewFrame<'_>,
     ) -> Result<()> {
         self.prepared = None;
-        let settings = &Settings { background: None, ..frame.settings.clone() };
+        let settings = &self.settings_of(frame);
         if settings.samples.0 > 1 {
             return Err(Error::option(
                 "--samples",
@@ -130,7 +130,10 @@ impl View {
         }
         let (camera, depth) = frame.camera.camera(settings.size_px)?;
         self.check_order(depth)?;
-        let plan = renderer.frame_plan(arena, frame.scenes, &camera, settings)?;
+        let mut plan = renderer.frame_plan(arena, frame.scenes, &camera, settings)?;
+        if !self.rendering.has_color() {
+            plan.transparent = SurfacePlan::default();
+        }
         let layered = !plan.transparent.is_empty();
         self.check_frame(frame, layered)?;
         let camera_before = Self::camera_before(frame)?.unwrap_or(camera);
@@ -222,7 +225,7 @@ impl View {
             let set =
                 set(&[sampled(BIND_SUMS_COLORS, &images.surface), sampled(BIND_SUMS_DEPTH, &images.depth)])?;
             draw(Part::Covering, set)?;
-            if plan.opaque.settings.edges == Edges::Coverage {
+            if plan.opaque.settings.edges == Edges::Coverage && self.rendering.has_color() {
                 draw(Part::CoveringLess, set)?;
             }
         }

@@ -75,41 +75,6 @@ impl Block {
     }
 }
 
-/// Blocks of a group: a frame looks at a group first, and at its blocks where it can't tell by that.
-pub const GROUP_BLOCKS: usize = 16;
-
-/// The bounds of runs of [`GROUP_BLOCKS`] blocks, which lie near each other as their splats do; none of blocks with levels of detail.
-pub(super) fn groups(blocks: &[Block]) -> Vec<Block> {
-    if blocks.iter().any(|block| block.levels.is_some()) {
-        return Vec::new();
-    }
-    blocks.chunks(GROUP_BLOCKS).map(around_blocks).collect()
-}
-
-/// Bounds of the splats of blocks. Angles between directions add up at most; a rounding has a reserve where bounds are looked at.
-fn around_blocks(blocks: &[Block]) -> Block {
-    let [lo, hi] = blocks.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], block| {
-        [lo.min(block.center - block.radius), hi.max(block.center + block.radius)]
-    });
-    let center = 0.5 * (lo + hi);
-    let sum: DVec3 = blocks.iter().map(|block| block.axis).sum();
-    let axis = sum.try_normalize();
-    let spread_of = |axis: DVec3| {
-        blocks.iter().map(|block| axis.angle_between(block.axis) + block.spread_rad).fold(0.0, f64::max)
-    };
-    let spread_rad = axis.map_or(PI, spread_of).min(PI);
-    Block {
-        count: blocks.iter().map(|block| block.count).sum(),
-        center,
-        radius: blocks.iter().map(|block| block.center.distance(center) + block.radius).fold(0.0, f64::max),
-        axis: axis.unwrap_or(DVec3::Z),
-        spread_rad,
-        spread_sin_cos: spread_rad.sin_cos().into(),
-        largest_radius: blocks.iter().map(|block| block.largest_radius).fold(0.0, f64::max),
-        levels: None,
-    }
-}
-
 /// A splat as the device has it.
 struct Sample {
     center: DVec3,

@@ -4,7 +4,8 @@ use ash::vk;
 use glam::DVec3;
 
 use super::{
-    blocks::{Block, BlockMaker, groups},
+    block_tree::BlockTree,
+    blocks::{Block, BlockMaker},
     clip_vectors::ClipVectors,
     level_words::LevelWords,
     levels::{ChunkLevels, LevelPart},
@@ -79,8 +80,8 @@ pub struct Chunk {
     pub blocks: Vec<Block>,
     /// What the host keeps of it, where its splats may change.
     pub(super) shadow: Option<Shadow>,
-    /// Runs of those, where they have no levels of detail: see [`GROUP_BLOCKS`](super::GROUP_BLOCKS).
-    pub groups: Vec<Block>,
+    /// Runs of those.
+    pub tree: BlockTree,
     /// Bytes of a shape and of a color.
     pub(super) bytes_each: [u64; 2],
     /// Shapes and colors, but where a frame is only listed.
@@ -141,7 +142,7 @@ impl Chunk {
             dynamic: false,
             blocks: Vec::new(),
             shadow: None,
-            groups: Vec::new(),
+            tree: BlockTree::default(),
             bytes_each,
             memory: uploader.map(memory).transpose()?,
         })
@@ -170,7 +171,7 @@ impl Chunk {
             progress(first.into());
         }
         self.blocks = blocks.finish();
-        self.groups = groups(&self.blocks);
+        self.tree = BlockTree::new(&self.blocks);
         Ok(())
     }
 
@@ -204,7 +205,7 @@ impl Chunk {
         for (block, levels) in self.blocks.iter_mut().zip(&levels.blocks) {
             block.levels = Some(Box::new(*levels));
         }
-        self.groups = groups(&self.blocks);
+        self.tree = BlockTree::new(&self.blocks);
         let (Some(uploader), Some(memory)) = (uploader, &self.memory) else { return Ok(()) };
         let words = levels.words.chunks(BATCH_WORDS).zip((0..).step_by(BATCH_WORDS * size_of::<u32>()));
         for (words, at) in words {

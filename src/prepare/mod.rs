@@ -5,6 +5,7 @@
 //! that origin, and where that is too much a second part (`sites.rs`).
 
 mod as_packed;
+mod block_tree;
 mod blocks;
 mod chunk;
 mod clip_vectors;
@@ -30,7 +31,8 @@ mod sites;
 mod updatable;
 
 pub use as_packed::as_packed;
-pub use blocks::{Block, GROUP_BLOCKS};
+pub use block_tree::{BlockTree, CHILDREN};
+pub use blocks::Block;
 pub use chunk::Chunk;
 pub use dynamic::{DynamicBuffers, DynamicSplats};
 pub use levels::{BallBounds, BlockLevels, ChunkLevels, LevelPart, LevelSpace};

@@ -9,7 +9,8 @@ use glam::DVec3;
 
 use super::{
     PreparedScene,
-    blocks::{Block, groups},
+    block_tree::BlockTree,
+    blocks::Block,
     chunk::Chunk,
     pack::{self, Beside, Packed, Survey},
     radii::RadiusCounts,
@@ -221,7 +222,7 @@ impl Chunk {
             shadow.boxes.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], [least, most]| {
                 [lo.min(*least), hi.max(*most)]
             });
-        self.groups = groups(&self.blocks);
+        self.tree = BlockTree::new(&self.blocks);
         self.largest_radius = self.blocks.iter().map(|block| block.largest_radius).fold(0.0, f64::max);
         let mut radii = RadiusCounts::new();
         // Of its block the largest: more than it is, but bounded without a look at all.

@@ -118,8 +118,8 @@ impl Renderer {
     /// # Errors
     /// [`crate::ErrorKind::Option`].
     pub fn check_levels(&self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<()> {
-        let settings = &*passes::within_budget(&[Placed::at_home(scene)], camera, settings);
         let arena = Arena::new();
+        let settings = &*passes::within_budget(&arena, &[Placed::at_home(scene)], camera, settings);
         let frame = passes::FramePlan::new(&arena, &[Placed::at_home(scene)], camera, settings, &self.limits);
         match passes::unused_levels(scene, &frame, settings) {
             None => Ok(()),
@@ -140,8 +140,8 @@ impl Renderer {
         plan: &Plan,
     ) -> Explanation {
         let limits = &self.limits;
-        let settings = &*passes::within_budget(&[Placed::at_home(scene)], camera, settings);
         let arena = Arena::new();
+        let settings = &*passes::within_budget(&arena, &[Placed::at_home(scene)], camera, settings);
         let frame = passes::FramePlan::new(&arena, &[Placed::at_home(scene)], camera, settings, limits);
         let seen_from = &frame.range.begin(camera);
         let draws = passes::draws(Placed::at_home(scene), (seen_from, frame.range), settings, limits);

@@ -1,5 +1,7 @@
 //! Planes that cut a scene: what lies on their one side is seen, the rest is not there.
 
+use std::sync::Arc;
+
 use glam::{DVec3, DVec4};
 
 use super::OptionValue;
@@ -11,9 +13,10 @@ pub const MOST_PLANES: usize = 6;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClipBox(pub Option<[[f64; 3]; 2]>);
 
-/// Planes `a x + b y + c z = d` in world space; what has `a x + b y + c z ≥ d` for all of them is seen.
+/// Planes `a x + b y + c z = d` in world space; what has `a x + b y + c z ≥ d` for all of them is seen. Shared by all settings that are copies of each other, so that a frame
+/// takes nothing from the heap for its own.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct ClipPlanes(pub Vec<[f64; 4]>);
+pub struct ClipPlanes(pub Arc<[[f64; 4]]>);
 
 impl ClipBox {
     /// Its planes: unit normals toward its inside, and by how much the origin is inside.
@@ -79,10 +82,10 @@ impl OptionValue for ClipPlanes {
 
     fn parse(word: &str) -> Result<Self, String> {
         if word == NONE {
-            return Ok(Self(Vec::new()));
+            return Ok(Self::default());
         }
         let planes: Option<Vec<[f64; 4]>> = word.split(';').map(numbers).collect();
-        planes.map(Self).ok_or_else(|| {
+        planes.map(|planes: Vec<_>| Self(planes.into())).ok_or_else(|| {
             "expected a,b,c,d, of which a x + b y + c z >= d is seen, such as 0,0,1,0.5, or none".to_owned()
         })
     }
@@ -113,7 +116,7 @@ mod tests {
         assert_eq!(whole, ClipBox(Some([[-1.0, -2.0, 0.0], [1.0, 2.5, 3.0]])));
         assert_eq!((ClipBox::parse(&whole.word()), ClipBox::parse("none")), (Ok(whole), Ok(ClipBox(None))));
         let planes = ClipPlanes::parse("0,0,2,1;1,0,0,-3").unwrap();
-        assert_eq!(planes.0, [[0.0, 0.0, 2.0, 1.0], [1.0, 0.0, 0.0, -3.0]]);
+        assert_eq!(*planes.0, [[0.0, 0.0, 2.0, 1.0], [1.0, 0.0, 0.0, -3.0]]);
         assert_eq!(
             (ClipPlanes::parse(&planes.word()), ClipPlanes::parse("none").unwrap().0.len()),
             (Ok(planes.clone()), 0)

@@ -73,21 +73,35 @@ impl Features {
             .maintenance4(self.maintenance4)
             .shader_terminate_invocation(self.shader_terminate_invocation)
     }
-    /// [`Self::vulkan13`] in structures of one feature each: for hosts whose chain has others of these, beside which `VkPhysicalDeviceVulkan13Features` may not be.
-    pub fn vulkan13_apart(
-        &self,
-    ) -> (
-        vk::PhysicalDeviceSynchronization2Features<'static>,
-        vk::PhysicalDeviceDynamicRenderingFeatures<'static>,
-        vk::PhysicalDeviceMaintenance4Features<'static>,
-        vk::PhysicalDeviceShaderTerminateInvocationFeatures<'static>,
-    ) {
-        (
-            vk::PhysicalDeviceSynchronization2Features::default().synchronization2(self.synchronization2),
-            vk::PhysicalDeviceDynamicRenderingFeatures::default().dynamic_rendering(self.dynamic_rendering),
-            vk::PhysicalDeviceMaintenance4Features::default().maintenance4(self.maintenance4),
-            vk::PhysicalDeviceShaderTerminateInvocationFeatures::default()
+
+    /// Those of Vulkan 1.3 in structures of one feature each: for a host whose chain has others of these, beside which `VkPhysicalDeviceVulkan13Features` may not be.
+    pub fn apart(&self) -> FeaturesApart {
+        FeaturesApart {
+            synchronization2: vk::PhysicalDeviceSynchronization2Features::default()
+                .synchronization2(self.synchronization2),
+            dynamic_rendering: vk::PhysicalDeviceDynamicRenderingFeatures::default()
+                .dynamic_rendering(self.dynamic_rendering),
+            maintenance4: vk::PhysicalDeviceMaintenance4Features::default().maintenance4(self.maintenance4),
+            shader_terminate_invocation: vk::PhysicalDeviceShaderTerminateInvocationFeatures::default()
                 .shader_terminate_invocation(self.shader_terminate_invocation),
-        )
+        }
+    }
+}
+
+/// Features in structures of one each ([`Features::apart`]).
+pub struct FeaturesApart {
+    synchronization2: vk::PhysicalDeviceSynchronization2Features<'static>,
+    dynamic_rendering: vk::PhysicalDeviceDynamicRenderingFeatures<'static>,
+    maintenance4: vk::PhysicalDeviceMaintenance4Features<'static>,
+    shader_terminate_invocation: vk::PhysicalDeviceShaderTerminateInvocationFeatures<'static>,
+}
+
+impl FeaturesApart {
+    /// What a device is created with, with these in front of its chain, in which none of the four may be.
+    pub fn enable<'a>(&'a mut self, info: vk::DeviceCreateInfo<'a>) -> vk::DeviceCreateInfo<'a> {
+        info.push_next(&mut self.synchronization2)
+            .push_next(&mut self.dynamic_rendering)
+            .push_next(&mut self.maintenance4)
+            .push_next(&mut self.shader_terminate_invocation)
     }
 }

@@ -57,7 +57,7 @@ pub use device::Device;
 pub use executables::{Executable, executables};
 pub(crate) use facts::LEAST_STORAGE_BUFFERS;
 pub use facts::all_facts;
-pub use features::Features;
+pub use features::{Features, FeaturesApart};
 pub use graphics_pipeline::{Attachments, Blend, DepthState, GraphicsPipeline, GraphicsPipelineDesc};
 pub use host_memory::{HostAllocation, HostMemory, MemoryRequest};
 pub use image::{Image, ImageDesc};

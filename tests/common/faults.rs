@@ -105,6 +105,7 @@ macro_rules! faulty {
         fn of_name(name: &str) -> Option<(&'static str, *const c_void)> {
             match name {
                 $(stringify!($function) => Some((stringify!($function), $function as *const c_void)),)*
+                "wait_semaphores" => Some(("wait_semaphores", wait_semaphores as *const c_void)),
                 _ => None,
             }
         }
@@ -142,7 +143,30 @@ faulty! {
     end_command_buffer(c: vk::CommandBuffer);
     queue_submit2(q: vk::Queue, n: u32, i: *const vk::SubmitInfo2<'_>, f: vk::Fence);
     queue_wait_idle(q: vk::Queue);
-    wait_semaphores(d: vk::Device, i: *const vk::SemaphoreWaitInfo<'_>, t: u64);
+}
+
+/// Waits until the device is idle, and then for the semaphores, or answers that this failed: layers don't follow timeline semaphores when they look for hazards across
+/// submissions (before Vulkan-ValidationLayers 8559), and what was waited for without their knowledge would be one to them.
+unsafe extern "system" fn wait_semaphores(
+    device: vk::Device,
+    info: *const vk::SemaphoreWaitInfo<'_>,
+    timeout: u64,
+) -> vk::Result {
+    type Idle = unsafe extern "system" fn(vk::Device) -> vk::Result;
+    type Wait = unsafe extern "system" fn(vk::Device, *const vk::SemaphoreWaitInfo<'_>, u64) -> vk::Result;
+    let own = |name: &str| OWN.with_borrow(|own| own.get(name).copied());
+    let (Some(idle), Some(wait)) = (own("device_wait_idle"), own("wait_semaphores")) else {
+        return vk::Result::ERROR_UNKNOWN;
+    };
+    // SAFETY: Vulkan's functions of these names have these types; the caller's own contract. One thread submits.
+    unsafe {
+        let idle = std::mem::transmute::<Function, Idle>(idle)(device);
+        match fails("wait_semaphores") {
+            true => ANSWER.get(),
+            false if idle != vk::Result::SUCCESS => idle,
+            false => std::mem::transmute::<Function, Wait>(wait)(device, info, timeout),
+        }
+    }
 }
 
 /// A function of a device: one that fails in its place, where it can.
@@ -154,6 +178,9 @@ fn found(name: &CStr, own: vk::PFN_vkVoidFunction) -> vk::PFN_vkVoidFunction {
             snake.push('_');
         }
         snake.push(letter.to_ascii_lowercase());
+    }
+    if let (Some(function), "device_wait_idle") = (own, &*snake) {
+        OWN.with_borrow_mut(|all| all.insert("device_wait_idle", function));
     }
     let (Some(function), Some((name, instead))) = (own, of_name(&snake)) else { return own };
     OWN.with_borrow_mut(|all| all.insert(name, function));

@@ -1,5 +1,6 @@
 //! An embedding host owns instance, device, queue, command buffers, target and submission; the renderer records.
 
+mod dropped;
 mod in_flight;
 mod no_waits;
 mod orbit;
@@ -83,7 +84,7 @@ fn upload_when(
         let _turn = turn.lock().unwrap();
         frame.submit(host, ours);
     }
-    frame.wait(host, ours);
+    frame.wait_in_turn(host, ours, turn);
     drop(batches);
     prepared
 }

@@ -131,7 +131,7 @@ fn what_planes_cut_off_is_not_picked() {
     let mut headless = shared();
     let all = [scenes::sphere_of_disks(), transparent::hybrid(Transition::Color), transparent::spheres()];
     for hard in all {
-        let cut = with(&hard, |settings| settings.clip_planes = ClipPlanes(vec![[0.3, 1.0, 0.2, -0.1]]));
+        let cut = with(&hard, |settings| settings.clip_planes = ClipPlanes([[0.3, 1.0, 0.2, -0.1]].into()));
         let (off, seen) = worst(&mut headless, &cut);
         println!("{}: {seen} places, off by {off:.1e} of the distance", hard.name);
         assert!(seen > 10, "{}: {seen}", hard.name);

@@ -23,18 +23,21 @@ fn cuts() -> [(&'static str, ClipBox, ClipPlanes); 3] {
     let none = ClipPlanes::default();
     [
         ("box", ClipBox(Some([[-0.7, -0.6, -0.8], [0.65, 0.55, 0.75]])), none),
-        ("plane", ClipBox(None), ClipPlanes(vec![[1.0, 0.5, 0.3, 0.1]])),
+        ("plane", ClipBox(None), ClipPlanes([[1.0, 0.5, 0.3, 0.1]].into())),
         (
             "six planes",
             ClipBox(None),
-            ClipPlanes(vec![
-                [1.0, 0.1, 0.2, -0.7],
-                [-1.0, 0.1, 0.3, -0.8],
-                [0.1, 1.0, 0.2, -0.75],
-                [0.1, -2.0, 0.3, -1.3],
-                [0.0, 0.2, 1.0, -0.6],
-                [0.2, 0.1, -1.0, -0.9],
-            ]),
+            ClipPlanes(
+                [
+                    [1.0, 0.1, 0.2, -0.7],
+                    [-1.0, 0.1, 0.3, -0.8],
+                    [0.1, 1.0, 0.2, -0.75],
+                    [0.1, -2.0, 0.3, -1.3],
+                    [0.0, 0.2, 1.0, -0.6],
+                    [0.2, 0.1, -1.0, -0.9],
+                ]
+                .into(),
+            ),
         ),
     ]
 }
@@ -96,7 +99,7 @@ fn every_hard_scene_is_cut_as_the_oracle_is() {
         let ball = hard.scene.ball().unwrap();
         let normal = (toward.cross(hard.camera.up).normalize() + 0.2 * toward + 0.1 * DVec3::Y).normalize();
         let middle = if ball.radius < 100.0 { ball.center } else { hard.camera.target };
-        let plane = ClipPlanes(vec![normal.extend(normal.dot(middle)).to_array()]);
+        let plane = ClipPlanes([normal.extend(normal.dot(middle)).to_array()].into());
         for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
             let hard = with(&hard, |settings| {
                 // Seven would be too many.
@@ -187,7 +190,7 @@ fn what_is_wholly_cut_off_is_not_listed_and_nothing_is_left_of_all() {
             let settings = Settings {
                 rasterizer,
                 cull: Cull::List,
-                clip_planes: ClipPlanes(vec![plane]),
+                clip_planes: ClipPlanes([plane].into()),
                 ..sphere.settings.clone()
             };
             let frame = headless.render(&prepared, &sphere.camera, &settings, PICTURE).unwrap();
@@ -210,7 +213,7 @@ fn what_is_cut_open_is_seen_from_inside() {
         hard.scene.meshes.iter_mut().for_each(|object| object.closed = true);
         // The half that is farther away.
         let away = (hard.camera.target - hard.camera.eye).normalize();
-        let plane = ClipPlanes(vec![away.extend(away.dot(hard.camera.target)).to_array()]);
+        let plane = ClipPlanes([away.extend(away.dot(hard.camera.target)).to_array()].into());
         for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
             let hard = with(&hard, |settings| {
                 (settings.rasterizer, settings.clip_planes) = (rasterizer, plane.clone());
@@ -232,7 +235,7 @@ fn planes_far_from_the_origin_and_none_at_all() {
     hard.scene.objects[0].splats.positions.iter_mut().for_each(|position| *position += far);
     (hard.camera.eye, hard.camera.target) = (hard.camera.eye + far, hard.camera.target + far);
     let normal = DVec3::new(1.0, 0.5, 0.3);
-    let plane = ClipPlanes(vec![normal.extend(normal.dot(far) + 0.1).to_array()]);
+    let plane = ClipPlanes([normal.extend(normal.dot(far) + 0.1).to_array()].into());
     let cut = with(&hard, |settings| settings.clip_planes = plane.clone());
     agrees(&mut headless, &cut, "far from the origin", 0.9);
     // A plane that cuts nothing changes no bit of what the graphics pipeline draws; the backs that it has drawn are culled.

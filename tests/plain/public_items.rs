@@ -11,12 +11,21 @@ use crate::import_direction::paths::{self, Token};
 const INTERFACE: &[(&[&str], &[&str])] = &[
     (
         &["embed/", "renderer/", "passes/pipeline/cache"],
-        &["View", "ViewFrame", "DepthImage", "Rendering", "NO_ID", "Renderer", "MissingPipelines"],
+        &[
+            "View",
+            "ViewFrame",
+            "DepthImage",
+            "HostImage",
+            "Rendering",
+            "NO_ID",
+            "Renderer",
+            "MissingPipelines",
+        ],
     ),
     (&["prepare/"], &["Placed", "NO_TINT", "PreparedScene", "DynamicSplats", "DynamicBuffers"]),
     (&["prepare/dynamic.rs"], &["disk", "color"]),
     (&["graph/resource.rs"], &["ImageState"]),
-    (&["vk/"], &["Device", "Features", "Import", "Requirements", "requirements"]),
+    (&["vk/"], &["Device", "Features", "FeaturesApart", "Import", "Requirements", "requirements"]),
     (&["vk/memory.rs", "vk/host_memory.rs"], &["HostMemory", "MemoryRequest", "MemoryUse", "HostAllocation"]),
     (
         &["scene/"],

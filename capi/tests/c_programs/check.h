@@ -37,6 +37,8 @@ void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, cons
             int in_order);
 /* Splats that are copied to the device: a ball of which the second frame shows one half. */
 void dynamic(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+/* Frames alike, which take nothing from the heap; by two calls, and by one. */
+void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Splats that change, tints, and whose a pixel is and how it has moved: of two balls, one of which moves, and then of the camera. */
 void objects(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 

@@ -42,7 +42,11 @@ void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, cons
     SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
                                  .depthFormat = VK_FORMAT_D32_SFLOAT};
     SurfelView *view;
-    IS(OPTION, surfel_view_create(renderer, &rendering, &view), "color_formats: the first is UNDEFINED: expected one that can be blended in");
+    rendering.depthFormat = VK_FORMAT_UNDEFINED;
+    IS(OPTION, surfel_view_create(renderer, &rendering, &view), "color_formats: there is neither color nor depth");
+    rendering.depthFormat = VK_FORMAT_D32_SFLOAT;
+    OK(surfel_view_create(renderer, &rendering, &view));
+    surfel_view_destroy(view);
     rendering.colorFormatCount = 1;
     IS(INVALID_ARGUMENT, surfel_view_create(renderer, &rendering, &view), "colorFormats is NULL");
     rendering.colorFormats = &color;

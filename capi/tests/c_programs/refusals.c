@@ -153,6 +153,7 @@ int main(int argc, char **argv) {
         IS(INVALID_ARGUMENT, surfel_renderer_create(NULL, NULL, &renderer), "device is NULL");
         OK(surfel_renderer_create(device, NULL, &renderer));
         dynamic(engine, device, renderer);
+        steady(engine, device, renderer);
         objects(engine, device, renderer);
         frames(engine, device, renderer, foreign, i == 0);
     }

@@ -142,7 +142,7 @@ mod tests {
             };
             assert!(of(&near(6.5), &settings).contains("nearer than --near 6.5"));
             assert!(of(&near(5.5), &settings).contains("edge-on"));
-            let cut = Settings { clip_planes: ClipPlanes(vec![[0.0, 0.0, 1.0, 9.0]]), ..settings.clone() };
+            let cut = Settings { clip_planes: ClipPlanes([[0.0, 0.0, 1.0, 9.0]].into()), ..settings.clone() };
             assert!(of(&near(0.1), &cut).contains("--clip-plane may leave nothing"));
             let cut = Settings { clip_box: ClipBox(Some([[8.0; 3], [9.0; 3]])), ..cut };
             assert!(of(&near(0.1), &cut).contains("--clip-box and --clip-plane may leave nothing"));

@@ -197,7 +197,7 @@ mod tests {
             last_layer: LastLayer::Drop,
             transition: Transition::Attributes,
             clip_box: ClipBox(None),
-            clip_planes: ClipPlanes(vec![[1.0, 0.0, -2.5, 0.25], [0.0, 1.0, 0.0, -3.0]]),
+            clip_planes: ClipPlanes([[1.0, 0.0, -2.5, 0.25], [0.0, 1.0, 0.0, -3.0]].into()),
             shading: Shading::Normals,
             outlines: Outlines::Splats,
             background: None,

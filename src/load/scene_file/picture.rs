@@ -46,7 +46,7 @@ fn clip_planes(value: &Value<'_>) -> Result<ClipPlanes> {
     let what = "arrays of four numbers, [a, b, c, d], of which a x + b y + c z >= d is seen";
     let planes = value.elements().ok_or_else(|| value.expected(what))?;
     let planes = planes.iter().map(|plane| plane.numbers(what, |_| true)).collect::<Result<Vec<_>>>()?;
-    let planes = ClipPlanes(planes);
+    let planes = ClipPlanes(planes.into());
     planes.check().map_err(|_| value.expected("a, b and c that are not all 0"))?;
     match planes.0.len() <= MOST_PLANES {
         true => Ok(planes),

@@ -76,7 +76,8 @@ impl<'a> PickPlan<'a> {
         pixel: [u32; 2],
     ) -> Self {
         // Sizes are of the picture, not of the pixel.
-        let settings = within_budget(&[Placed::at_home(scene)], camera, settings);
+        let arena = &Arena::new();
+        let settings = within_budget(arena, &[Placed::at_home(scene)], camera, settings);
         let lod = Lod::Px(settings.tau_px());
         let window = Window {
             whole_px: Some(camera.window.whole_px.unwrap_or(settings.size_px)),
@@ -86,7 +87,6 @@ impl<'a> PickPlan<'a> {
         let eye = camera.eye;
         let camera = Camera { window, ..range.begin(camera) };
         let settings = Settings { size_px: [1; 2], lod, ..settings.into_owned() };
-        let arena = &Arena::new();
         let mut all = arena.growing();
         for (transparent, plan) in [(false, &frame.opaque), (true, &frame.transparent)] {
             let own = draws(Placed::at_home(scene), (&camera, range), &settings, limits);
@@ -99,7 +99,7 @@ impl<'a> PickPlan<'a> {
         let in_cells =
             |object: usize| scene.meshes.iter().any(|mesh| mesh.levels.is_some() && mesh.object == object);
         all.retain(|draw| !in_cells(draw.chunk.object));
-        let seen = arena.list(all.iter().map(|draw| draw.potentially_visible_blocks(arena, false)));
+        let seen = arena.list(all.iter().map(|draw| draw.potentially_visible_runs(arena, false)));
         let listed = ListedBlocks::of(arena, &mut all, seen, 0..1).words().to_vec();
         let draws = all.to_vec();
         let mut meshes: Vec<_> = mesh_draws(Placed::at_home(scene), (&camera, range), &settings).collect();

@@ -19,6 +19,9 @@ use crate::{
 /// Bytes that lists may take in any case.
 const LEAST_BYTES: u64 = 16_000_000;
 
+/// What a frame takes beside splats, records and lists, as a part of what these may: runs of blocks, arguments, and that blocks are listed as wholes.
+const BESIDE: u64 = 32;
+
 /// The most bands: each takes a few commands more.
 const MOST_BANDS: usize = 16;
 
@@ -58,7 +61,8 @@ pub(crate) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u64 {
     match memory {
         TileMemory::Auto => {
             let splats = sum(Chunk::bytes);
-            (sum(|chunk| chunk.scene_bytes) * 3 / 2).saturating_sub(splats).max(LEAST_BYTES)
+            let most = (sum(|chunk| chunk.scene_bytes) * 3 / 2).saturating_sub(splats);
+            (most - most / BESIDE).max(LEAST_BYTES)
         }
         TileMemory::Most(bytes) => bytes,
     }
@@ -78,8 +82,8 @@ pub(crate) fn cut_into_bands<'m>(
     if whole.bytes() <= most_bytes {
         return &[];
     }
-    let cut = Cut { arena, draws, seen, culls_hidden: whole.hidden, settings, limits };
-    cut.within(most_bytes, whole).unwrap_or_default()
+    let cut = Cut { arena, draws, seen, whole, settings, limits };
+    cut.within(most_bytes).unwrap_or_default()
 }
 
 /// What is cut into bands.
@@ -87,14 +91,15 @@ struct Cut<'c, 'm> {
     arena: &'m Arena,
     draws: &'c [Draw<'c>],
     seen: &'c PotentiallyVisibleBlocks<'c>,
-    culls_hidden: bool,
+    whole: &'c TilePlan,
     settings: &'c Settings,
     limits: &'c Limits,
 }
 
 impl<'m> Cut<'_, 'm> {
     /// The plans of bands that take so many bytes, or little more where that would be too many bands; none where bands gain nothing.
-    fn within(&self, most_bytes: u64, whole: &TilePlan) -> Option<&'m [TilePlan]> {
+    fn within(&self, most_bytes: u64) -> Option<&'m [TilePlan]> {
+        let whole = self.whole;
         // All bands together take at least what the whole does.
         let most_bytes = most_bytes.max(whole.bytes() / MOST_BANDS as u64);
         let mut wanted = most_bytes;
@@ -123,7 +128,7 @@ impl<'m> Cut<'_, 'm> {
     }
 
     fn plan(&self, rows: Range<u32>) -> Option<TilePlan> {
-        TilePlan::of_blocks(self.draws, self.seen, rows, self.culls_hidden, self.settings, self.limits)
+        self.whole.of_rows_of_it(self.draws, self.seen, rows, self.settings, self.limits)
     }
 
     /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many.

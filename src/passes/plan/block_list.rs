@@ -3,45 +3,61 @@
 use std::ops::Range;
 
 use crate::arena::Arena;
-use crate::passes::plan::{draws::Draw, seen::PotentiallyVisibleBlock};
+use crate::passes::plan::{draws::Draw, seen::PotentiallyVisibleRun};
 use crate::shaders::config::{ALL_OF_LEVEL, ALL_VISIBLE, BLOCK_SPLATS, LEVEL_WORDS};
 
-/// Words in front of the blocks: the rows.
-const ROW_WORDS: usize = 2;
+/// Words in front of the runs: the rows, and how many runs there are.
+const HEAD_WORDS: usize = 3;
 
-/// The blocks of all chunks in which splats are looked for, as `glsl/inc/list.glsl` has them: the rows of tiles, then the
-/// chunks' blocks one behind the other; then, where some have levels of detail, how the camera sees them, the last chunk's first.
+/// Words of a list at least: few runs are soon twice as many.
+const LEAST_WORDS: usize = 256;
+
+/// The blocks of all chunks in which splats are looked for, as `glsl/inc/list.glsl` has them: the rows of tiles, and how many runs of blocks there are; the runs of all
+/// chunks one behind the other; then, where some have levels of detail, how the camera sees them, the last chunk's first.
 #[derive(Clone, Copy)]
 pub struct ListedBlocks<'a>(&'a [u32]);
 
 impl<'a> ListedBlocks<'a> {
-    /// Those of the blocks of each chunk that may touch some rows of tiles; gives each chunk its number, and that of its first splat
+    /// Those of the runs of each chunk that may touch some rows of tiles; gives each chunk its number, and that of its first splat
     /// among those that are looked at.
     pub fn of(
         arena: &'a Arena,
         draws: &mut [Draw<'_>],
-        seen: &[&[PotentiallyVisibleBlock]],
+        seen: &[&[PotentiallyVisibleRun]],
         rows: Range<u32>,
     ) -> Self {
         let mut words = arena.growing();
-        words.reserve(ROW_WORDS + seen.iter().map(|blocks| blocks.len().max(1)).sum::<usize>());
-        words.extend([rows.start, rows.end]);
-        for (number, (draw, blocks)) in (0..).zip(draws.iter_mut().zip(seen)) {
-            let before = words.len();
+        words.reserve(HEAD_WORDS + 2 * seen.iter().map(|runs| runs.len().max(1)).sum::<usize>());
+        words.extend([rows.start, rows.end, 0]);
+        let mut place = 0;
+        for (number, (draw, runs)) in (0..).zip(draws.iter_mut().zip(seen)) {
+            let (before, first_word) = (place, words.len());
             draw.constants.number_chunk(number);
-            draw.constants.first_record = (before - ROW_WORDS) as u32 * BLOCK_SPLATS;
-            let touching = blocks.iter().filter(|block| block.touches(&rows));
-            words.extend(touching.map(|block| {
-                let all_visible = if block.is_within(&rows) { ALL_VISIBLE } else { 0 };
-                let all_of_level = if block.all_of_level { ALL_OF_LEVEL } else { 0 };
-                block.number | all_visible | all_of_level
-            }));
-            if words.len() == before {
-                // There is one in any case, for whoever counts what is listed: behind all splats.
-                words.push(u32::MAX / BLOCK_SPLATS);
+            draw.constants.first_record = place * BLOCK_SPLATS;
+            for run in runs.iter().filter(|run| run.touches(&rows)) {
+                let all_visible = if run.is_within(&rows) { ALL_VISIBLE } else { 0 };
+                let all_of_level = if run.all_of_level { ALL_OF_LEVEL } else { 0 };
+                let what = run.first | all_visible | all_of_level;
+                // Neighbors of which the same is known are one.
+                let goes_on = match words[first_word..] {
+                    [.., begin, of_last] => of_last + (place - begin) == what,
+                    _ => false,
+                };
+                if !goes_on {
+                    words.extend([place, what]);
+                }
+                place += run.blocks;
             }
-            draw.constants.list_blocks((words.len() - before) as u32);
+            if place == before {
+                // There is one in any case, for whoever counts what is listed: behind all splats.
+                words.extend([place, u32::MAX / BLOCK_SPLATS]);
+                place += 1;
+            }
+            draw.constants.list_blocks(place - before);
         }
+        words[HEAD_WORDS - 1] = ((words.len() - HEAD_WORDS) / 2) as u32;
+        // With every move of a camera there are others, of which buffers shall not be too small.
+        words.resize(words.len().next_power_of_two().max(LEAST_WORDS), 0);
         if draws.iter().any(|draw| draw.levels.is_some()) {
             let none = [0; LEVEL_WORDS as usize];
             let views = draws.iter().rev().map(|draw| draw.levels.map_or(none, |levels| levels.words()));

@@ -1,17 +1,18 @@
 //! Which blocks of a chunk may be seen, and in which rows of tiles: found on the host, by what bounds all splats of a block.
 
+pub(super) mod walk;
+
 use std::ops::Range;
 
 use glam::{DVec3, DVec4};
 
 use crate::passes::plan::{
     levels::{LevelView, OfBlock},
-    seen::PotentiallyVisibleBlock,
+    seen::PotentiallyVisibleRun,
 };
 use crate::{
-    arena::{Arena, ArenaVec},
     math::size::{SizeBound, box_within_px},
-    prepare::{Block, Chunk, GROUP_BLOCKS, ViewFromLocal},
+    prepare::{Block, ViewFromLocal},
     shaders::config::BAND_ROW,
 };
 
@@ -50,64 +51,6 @@ const ORIGIN_RESERVE: f64 = 1e-6;
 /// than 3 pixels.
 const FILTER_RESERVE_PX: f64 = 6.0;
 
-/// The blocks of a chunk some of whose splats may be seen, in their order. What is left out here, every stage that sets splats up
-/// would leave out: what faces away, what is nearer than the near plane, and what is beside the image, by the bounds of
-/// `glsl/mark_visible.comp.glsl`, of a ball in place of a splat.
-///
-/// The ball has all points within 2 R of a center. A splat's image, a filter's h aside, reaches R √(1 + c²) / (p_z − R) from its center's
-/// image c at most (there). The image of a ball of 2 R about that center reaches 2 R √(1 + c²) / (p_z + 2 R) at least, which is
-/// no less where p_z ≥ 4 R; and it is, where the whole ball's reach is within a quarter of its depth. Under parallel rays all of that is as
-/// large as it is.
-///
-/// A group of blocks is looked at first. Of one that is seen as a whole, blocks are not, unless they are wanted `closely`: all of them are seen, and in no other rows.
-/// So what is looked at by itself is at silhouettes, at borders of the image, and near.
-pub fn potentially_visible_blocks<'m>(
-    arena: &'m Arena,
-    chunk: &Chunk,
-    look: &BlockCullView<'_>,
-    closely: bool,
-) -> &'m [PotentiallyVisibleBlock] {
-    let mut seen = arena.growing();
-    seen.reserve(chunk.blocks.len());
-    // Of a chunk that a host writes, the blocks have the same bounds: one is looked at for all.
-    if let (true, Some(first)) = (chunk.is_dynamic(), chunk.blocks.first()) {
-        let found = potentially_visible(0, first, look);
-        seen.extend(found.into_iter().flat_map(|found| found.of_all(0, &chunk.blocks)));
-        return seen.into_bump_slice();
-    }
-    let each = |first: usize, blocks: &[Block], seen: &mut ArenaVec<'m, PotentiallyVisibleBlock>| {
-        let blocks = (first as u32..).zip(blocks);
-        seen.extend(blocks.filter_map(|(number, block)| potentially_visible(number, block, look)));
-    };
-    if chunk.groups.is_empty() || look.levels.is_some() {
-        each(0, &chunk.blocks, &mut seen);
-        return seen.into_bump_slice();
-    }
-    let numbers = (0..).step_by(GROUP_BLOCKS);
-    for ((first, group), blocks) in numbers.zip(&chunk.groups).zip(chunk.blocks.chunks(GROUP_BLOCKS)) {
-        match look_at(0, group, look) {
-            None => {}
-            Some((whole, most_x)) if whole.all_seen && !closely => {
-                let of_group = |(number, block)| PotentiallyVisibleBlock {
-                    box_px: box_at_px(block, nearest_z(block, look), most_x, look),
-                    ..whole.of_block(number, block)
-                };
-                seen.extend((first as u32..).zip(blocks).map(of_group));
-            }
-            Some(_) => each(first, blocks, &mut seen),
-        }
-    }
-    seen.into_bump_slice()
-}
-
-fn potentially_visible(
-    number: u32,
-    block: &Block,
-    look: &BlockCullView<'_>,
-) -> Option<PotentiallyVisibleBlock> {
-    look_at(number, block, look).map(|(found, _)| found)
-}
-
 /// What no box of a block's splats exceeds that are no nearer, and no farther from the middle along x and y in the image plane.
 fn box_at_px(block: &Block, nearest_z: f64, most_x: f64, look: &BlockCullView<'_>) -> f64 {
     let largest_radius = block.largest_radius * look.view.view_from_local_scale;
@@ -116,17 +59,13 @@ fn box_at_px(block: &Block, nearest_z: f64, most_x: f64, look: &BlockCullView<'_
     box_within_px(&bound, largest_radius, most_x.min(look.half_image))
 }
 
-/// The smallest depth of what is of a block's splats.
-fn nearest_z(block: &Block, look: &BlockCullView<'_>) -> f64 {
-    let scale = look.view.view_from_local_scale;
-    let middle = look.view.rotation.row(2).dot(block.center * scale + look.view.origin_from_eye);
-    // No center is farther from the eye.
-    let reserve = (LENGTH_RESERVE + ORIGIN_RESERVE) * look.by_origin;
-    middle - (block.radius + 2.0 * block.largest_radius) * scale - reserve
-}
-
-/// What is seen of a block, and how far from the middle of the image plane along x and y.
-fn look_at(number: u32, block: &Block, look: &BlockCullView<'_>) -> Option<(PotentiallyVisibleBlock, f64)> {
+/// What is seen of a block, or of several that lie in a row within its bounds.
+fn look_at(
+    first: u32,
+    blocks: u32,
+    block: &Block,
+    look: &BlockCullView<'_>,
+) -> Option<PotentiallyVisibleRun> {
     let of_levels = match (look.levels, &block.levels) {
         (Some(view), Some(block)) => view.of(block),
         _ => OfBlock::All,
@@ -147,8 +86,9 @@ fn look_at(number: u32, block: &Block, look: &BlockCullView<'_>) -> Option<(Pote
         (Some(view), Some(block)) => view.largest_box_px(block, look.bound.filter_px),
         _ => f64::INFINITY,
     };
-    let found = PotentiallyVisibleBlock {
-        number,
+    Some(PotentiallyVisibleRun {
+        first,
+        blocks,
         count: match (look.levels, &block.levels) {
             (Some(view), Some(levels)) => view.most_drawn(levels, block.count),
             _ => block.count,
@@ -157,8 +97,7 @@ fn look_at(number: u32, block: &Block, look: &BlockCullView<'_>) -> Option<(Pote
         rows,
         all_seen: is_whole && look.planes.is_empty() && (!look.culls || side == Side::TowardEye),
         all_of_level: of_levels == OfBlock::All,
-    };
-    Some((found, most_x))
+    })
 }
 
 /// A block from the eye, in the view's unit.

@@ -10,9 +10,9 @@
 use std::borrow::Cow;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::{
+    arena::{Arena, ArenaVec},
     prepare::{Chunk, Group, Placed, Refinements},
     scene::{Backfaces, Budget, Camera, ErrorBall, Filter, LeveledObject, Lod, Settings, ViewFromWorld},
 };
@@ -25,6 +25,7 @@ const RESERVE: f64 = 1e-5;
 
 /// The settings with the size for their budget in the place of [`Settings::lod`], where they have one and something has levels of detail.
 pub(crate) fn within_budget<'s>(
+    arena: &Arena,
     scenes: &[Placed<'_>],
     camera: &Camera,
     settings: &'s Settings,
@@ -38,46 +39,54 @@ pub(crate) fn within_budget<'s>(
     let others: u64 = others.map(|chunk| u64::from(chunk.count)).sum();
     let most = (SHARE * f64::from(most)) as i64 - others as i64;
     let asked_px = settings.tau_px();
-    let counted = |Placed { scene, at, .. }: &Placed<'_>| {
-        Counted::new(&scene.refinements, &at.camera(camera), settings).nodes
-    };
-    let nodes = scenes.iter().map(counted).collect::<Vec<_>>().concat();
-    let tau_px = Counted { nodes }.tau_px(most).max(asked_px);
+    let mut counted = Counted { arena, nodes: arena.growing() };
+    for Placed { scene, at, .. } in scenes {
+        counted.add(&scene.refinements, &at.camera(camera), settings);
+    }
+    let tau_px = counted.tau_px(most).max(asked_px);
     Cow::Owned(Settings { lod: Lod::Px(tau_px), ..settings.clone() })
 }
 
 /// How many splats a frame draws of objects for a size, as a budget counts them.
 pub fn count_drawn(objects: &[LeveledObject], camera: &Camera, settings: &Settings, tau_px: f64) -> u64 {
     let refinements: Vec<Refinements> = objects.iter().map(Refinements::of).collect();
-    Counted::new(&refinements, camera, settings).count(tau_px).max(0) as u64
+    let arena = Arena::new();
+    let mut counted = Counted { arena: &arena, nodes: arena.growing() };
+    counted.add(&refinements, camera, settings);
+    counted.count(tau_px).max(0) as u64
 }
 
-/// What is drawn more below a size on the screen.
-struct Counted {
+/// What is drawn more below a size on the screen. By one thread, in a frame's memory: a pool of threads takes some from the heap.
+struct Counted<'m> {
+    arena: &'m Arena,
     /// The size in pixels, and how many splats are more.
-    nodes: Vec<(f32, i16)>,
+    nodes: ArenaVec<'m, (f32, i16)>,
 }
 
-impl Counted {
-    /// Those that a camera sees.
-    fn new(objects: &[Refinements], camera: &Camera, settings: &Settings) -> Self {
+impl Counted<'_> {
+    /// Adds those that a camera sees.
+    fn add(&mut self, objects: &[Refinements], camera: &Camera, settings: &Settings) {
         let blended_size = settings.blended_size() as f32;
-        let nodes = objects.iter().map(|object| {
+        for object in objects {
             let view = View::new(object, camera, settings);
-            let events = object.all.par_iter().flat_map_iter(|node| {
-                let size_px = view.size_px(&node.ball);
+            let sizes_px = self.arena.list(object.all.iter().map(|node| view.size_px(&node.ball)));
+            self.nodes.reserve(2 * object.all.len());
+            for (node, size_px) in object.all.iter().zip(sizes_px) {
                 let [own, leaves] = [&node.own, &node.leaves].map(|group| view.seen(&node.ball, group));
-                let below = (own > 0).then(|| (view.size_px(&object.all[node.parent as usize].ball), own));
+                if own > 0 {
+                    self.nodes.push((sizes_px[node.parent as usize], own));
+                }
                 // Where nodes blend, one is drawn while the next are.
-                let (of_leaves, of_own) = match blended_size > 1.0 {
-                    true => (leaves, (own > 0).then_some((size_px / blended_size, -own))),
-                    false => (leaves - own, None),
-                };
-                below.into_iter().chain((of_leaves != 0).then_some((size_px, of_leaves))).chain(of_own)
-            });
-            events.collect::<Vec<_>>()
-        });
-        Self { nodes: nodes.collect::<Vec<_>>().concat() }
+                let blends = blended_size > 1.0;
+                let of_leaves = if blends { leaves } else { leaves - own };
+                if of_leaves != 0 {
+                    self.nodes.push((*size_px, of_leaves));
+                }
+                if blends && own > 0 {
+                    self.nodes.push((size_px / blended_size, -own));
+                }
+            }
+        }
     }
 
     /// How many splats are drawn for a size.
@@ -220,8 +229,11 @@ mod tests {
             let mut sizes_px = [0.0; 3];
             for (i, most) in budgets.into_iter().enumerate() {
                 let settings = Settings { size_px, budget: Budget::Splats(most), ..Settings::default() };
-                let counted = Counted::new(&prepared.refinements, &camera, &settings);
-                sizes_px[i] = within_budget(&[Placed::at_home(&prepared)], &camera, &settings).tau_px();
+                let arena = Arena::new();
+                let mut counted = Counted { arena: &arena, nodes: arena.growing() };
+                counted.add(&prepared.refinements, &camera, &settings);
+                sizes_px[i] =
+                    within_budget(&arena, &[Placed::at_home(&prepared)], &camera, &settings).tau_px();
                 let drawn = counted.count(sizes_px[i]) as f64 / f64::from(most);
                 // Near to it there are not so many.
                 assert!(drawn <= 1.0 && (drawn >= 0.98 || sizes_px[i] == 0.0), "{drawn} of {most}");
@@ -237,6 +249,7 @@ mod tests {
         println!("{most_change} of a budget changes in a step at most");
         assert!(most_change < 0.05, "{most_change}");
         let settings = Settings { budget: Budget::Splats(10_000_000), ..Settings::default() };
-        assert_eq!(within_budget(&[Placed::at_home(&prepared)], &camera, &settings).tau_px(), 0.0);
+        let within = within_budget(&Arena::new(), &[Placed::at_home(&prepared)], &camera, &settings).tau_px();
+        assert_eq!(within, 0.0);
     }
 }

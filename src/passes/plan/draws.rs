@@ -9,12 +9,12 @@ use crate::passes::{
         variant::{Constants, culls, splat_constants, sums_under},
     },
     plan::{
-        blocks::{BlockCullView, potentially_visible_blocks},
+        blocks::{BlockCullView, walk::potentially_visible_runs},
         frame_constants::{focal_in_view_px, frame_constants, near_in_view},
         in_view::{center_and_half, in_view, nearest_z, wholly_in_view},
         levels::{LevelView, OfBlock},
         range::DepthRange,
-        seen::PotentiallyVisibleBlock,
+        seen::PotentiallyVisibleRun,
     },
 };
 use crate::{
@@ -39,7 +39,7 @@ pub struct Draw<'a> {
     pub constants: FrameConstants,
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
     pub largest_box_px: f64,
-    /// From where, for [`Self::potentially_visible_blocks`].
+    /// From where, for [`Self::potentially_visible_runs`].
     pub(super) view: ViewFromLocal,
     bound: SizeBound,
     /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
@@ -72,13 +72,13 @@ impl Draw<'_> {
         })
     }
 
-    /// The blocks in which there may be something to see; `closely`: rows and boxes are each block's own, where its group's would do for the whole image.
-    pub(crate) fn potentially_visible_blocks<'m>(
+    /// The blocks in which there may be something to see; `closely`: what is seen as a whole is looked at by its parts, too, whose rows are fewer.
+    pub(crate) fn potentially_visible_runs<'m>(
         &self,
         arena: &'m Arena,
         closely: bool,
-    ) -> &'m [PotentiallyVisibleBlock] {
-        potentially_visible_blocks(arena, self.chunk, &self.look(), closely)
+    ) -> &'m [PotentiallyVisibleRun] {
+        potentially_visible_runs(arena, self.chunk, &self.look(), closely)
     }
 
     /// How its blocks are looked at.

@@ -70,7 +70,7 @@ pub(crate) fn primitives<'a>(
         return SplatMethod::default();
     }
     let rows = rows_of_image(settings);
-    let seen = arena.list(splats.iter().map(|draw| draw.potentially_visible_blocks(arena, false)));
+    let seen = arena.list(splats.iter().map(|draw| draw.potentially_visible_runs(arena, false)));
     SplatMethod::Primitives {
         visible: Some(ListedBlocks::of(arena, splats, seen, rows)),
         culls_hidden: culling::primitives_cull_hidden(polygons, settings),
@@ -89,14 +89,14 @@ fn bands<'a>(
     let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
     let rows = rows_of_image(settings);
     let seen = |closely| {
-        let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_blocks(arena, closely)));
+        let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_runs(arena, closely)));
         PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
     let (seen, whole) = if splats.iter().any(|draw| draw.levels.is_some()) {
         // Of levels of detail there may be many more splats than there is room for; those that may be drawn are few.
         let seen = seen(true);
-        if !culling::list_has_room(seen.chunks.iter().map(|blocks| blocks.len()).sum(), limits) {
+        if !culling::list_has_room(seen.block_count(), limits) {
             return None;
         }
         let of_blocks = TilePlan::of_blocks(splats, &seen, rows.clone(), culls_hidden, settings, limits);
@@ -118,16 +118,14 @@ fn bands<'a>(
         let tightened = |seen: &PotentiallyVisibleBlocks<'_>| {
             whole.clone().tightened_to_blocks(splats, seen, settings, limits)
         };
-        let roughly = seen(false);
-        let tight = tightened(&roughly);
-        if tight.bytes() <= most_bytes {
-            (roughly, tight)
-        } else {
+        // About half of a closed surface is seen.
+        let rough =
+            (whole.bytes() / 2 <= most_bytes).then(|| seen(false)).map(|seen| (seen, tightened(&seen)));
+        rough.filter(|(_, tight)| tight.bytes() <= most_bytes).unwrap_or_else(|| {
             // Bands are cut by rows.
             let seen = seen(true);
-            let tight = tightened(&seen);
-            (seen, tight)
-        }
+            (seen, tightened(&seen))
+        })
     };
     if left_to_others(&whole) {
         return None;

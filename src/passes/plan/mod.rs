@@ -107,7 +107,7 @@ impl<'a> FramePlan<'a> {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let settings = &*budget::within_budget(scenes, camera, settings);
+        let settings = &*budget::within_budget(arena, scenes, camera, settings);
         let range = DepthRange::of(scenes, camera);
         let camera = &range.begin(camera);
         let lights = lights::shader_lights(arena, scenes, camera);

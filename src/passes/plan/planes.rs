@@ -68,7 +68,8 @@ mod tests {
                 assert!((found / scale - expected).abs() < 1e-5, "{found} {scale} {expected}");
             }
         }
-        let other = Settings { clip_planes: ClipPlanes(vec![[0.0, 0.0, 1.0, 0.0]]), ..Settings::default() };
+        let other =
+            Settings { clip_planes: ClipPlanes([[0.0, 0.0, 1.0, 0.0]].into()), ..Settings::default() };
         assert_eq!(shader_planes((&perspective, DepthRange::default()), &other).len(), 1);
     }
 }

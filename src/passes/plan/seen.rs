@@ -2,14 +2,16 @@
 
 use std::ops::Range;
 
-use crate::{arena::Arena, prepare::Block};
+use crate::arena::Arena;
 
-/// A block some of whose splats may be seen.
+/// Blocks in a row some of whose splats may be seen.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PotentiallyVisibleBlock {
-    /// Its number in its chunk.
-    pub number: u32,
-    /// Its splats, of levels of detail those that may be drawn.
+pub struct PotentiallyVisibleRun {
+    /// The number of the first in its chunk.
+    pub first: u32,
+    /// How many there are.
+    pub blocks: u32,
+    /// Their splats, of levels of detail those that may be drawn.
     pub count: u32,
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
     pub box_px: f64,
@@ -21,20 +23,10 @@ pub struct PotentiallyVisibleBlock {
     pub all_of_level: bool,
 }
 
-impl PotentiallyVisibleBlock {
+impl PotentiallyVisibleRun {
     /// Whether none of its splats is left out for where it is, where splats are looked for in these rows.
     pub fn is_within(&self, rows: &Range<u32>) -> bool {
         self.all_seen && rows.start <= self.rows.start && self.rows.end <= rows.end
-    }
-
-    /// What is known of one of some blocks, the first of which has this number, where it holds for all of them.
-    pub(super) fn of_all(self, first: u32, blocks: &[Block]) -> impl Iterator<Item = Self> {
-        (first..).zip(blocks).map(move |(number, block)| self.of_block(number, block))
-    }
-
-    /// The same of one of these.
-    pub(super) fn of_block(&self, number: u32, block: &Block) -> Self {
-        Self { number, count: block.count, ..self.clone() }
     }
 
     /// Whether it may touch any of these rows.
@@ -47,7 +39,7 @@ impl PotentiallyVisibleBlock {
 #[derive(Clone, Copy)]
 pub struct PotentiallyVisibleBlocks<'a> {
     /// Chunk by chunk.
-    pub chunks: &'a [&'a [PotentiallyVisibleBlock]],
+    pub chunks: &'a [&'a [PotentiallyVisibleRun]],
     /// The sizes of boxes that there are, the smallest first.
     sizes_px: &'a [f64],
     /// Of each row, and of the end, all sizes: how many splats are in blocks that begin before it, and in such that end before it.
@@ -58,16 +50,16 @@ pub struct PotentiallyVisibleBlocks<'a> {
 const SIZE_STEP_PX: f64 = 0.25;
 
 impl<'a> PotentiallyVisibleBlocks<'a> {
-    /// Those of some blocks, in an image with so many rows of tiles.
-    pub fn new(arena: &'a Arena, chunks: &'a [&'a [PotentiallyVisibleBlock]], rows: u32) -> Self {
-        let size_of = |block: &PotentiallyVisibleBlock| (block.box_px / SIZE_STEP_PX).ceil() * SIZE_STEP_PX;
+    /// Those of some runs, in an image with so many rows of tiles.
+    pub fn new(arena: &'a Arena, chunks: &'a [&'a [PotentiallyVisibleRun]], rows: u32) -> Self {
+        let size_of = |run: &PotentiallyVisibleRun| (run.box_px / SIZE_STEP_PX).ceil() * SIZE_STEP_PX;
         let mut sizes_px = arena.growing::<f64>();
         let place_of =
             |sizes_px: &[f64], size: f64| sizes_px.binary_search_by(|other| other.total_cmp(&size));
         // Neighbors are often of one size.
         let mut last = f64::NAN;
-        for block in chunks.iter().copied().flatten() {
-            let size = size_of(block);
+        for run in chunks.iter().copied().flatten() {
+            let size = size_of(run);
             if size != last {
                 last = size;
                 if let Err(place) = place_of(&sizes_px, size) {
@@ -79,15 +71,15 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
         let mut before = arena.growing();
         before.resize(count * (rows as usize + 1), [0; 2]);
         let (mut last, mut size) = (f64::NAN, 0);
-        for block in chunks.iter().copied().flatten() {
-            let size_px = size_of(block);
+        for run in chunks.iter().copied().flatten() {
+            let size_px = size_of(run);
             if size_px != last {
                 last = size_px;
                 size = place_of(&sizes_px, size_px).unwrap_or_else(|place| place);
             }
             // In the row behind the one where it begins or ends; then summed up.
-            before[(block.rows.start as usize + 1) * count + size][0] += block.count;
-            before[block.rows.end as usize * count + size][1] += block.count;
+            before[(run.rows.start as usize + 1) * count + size][0] += run.count;
+            before[run.rows.end as usize * count + size][1] += run.count;
         }
         for place in count..before.len() {
             let [begun, ended] = before[place - count];
@@ -106,9 +98,14 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
         end.iter().zip(start).zip(sizes_px).map(of).filter(|(count, _)| *count > 0)
     }
 
+    /// How many blocks there are.
+    pub fn block_count(&self) -> usize {
+        self.chunks.iter().copied().flatten().map(|run| run.blocks as usize).sum()
+    }
+
     /// The rows that any of them may touch; `None` where there is none.
     pub fn rows(&self) -> Option<Range<u32>> {
-        let rows = || self.chunks.iter().copied().flatten().map(|block| &block.rows);
+        let rows = || self.chunks.iter().copied().flatten().map(|run| &run.rows);
         Some(rows().map(|rows| rows.start).min()?..rows().map(|rows| rows.end).max()?)
     }
 }

@@ -93,11 +93,11 @@ fn offset_of(meshes: &[MeshDraw<'_>], number: usize) -> u64 {
     DRAW_BYTES * before
 }
 
-/// Two words that are not read, and how the camera sees each, the last one first (`glsl/inc/list.glsl`, `glsl/inc/levels.glsl`).
+/// Three words that are not read, and how the camera sees each, the last one first (`glsl/inc/list.glsl`, `glsl/inc/levels.glsl`).
 fn words(meshes: &[MeshDraw<'_>]) -> impl Iterator<Item = u32> {
     let views = meshes
         .iter()
         .rev()
         .map(|draw| draw.levels.map_or([0; LEVEL_WORDS as usize], |levels| levels.words()));
-    [0; 2].into_iter().chain(views.flatten())
+    [0; 3].into_iter().chain(views.flatten())
 }

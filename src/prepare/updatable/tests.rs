@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::*;
 use crate::{
-    prepare::{blocks::GROUP_BLOCKS, prepare_without_device},
+    prepare::{CHILDREN, prepare_without_device},
     scene::{Colors, Object, Order, Scene, SplatFormat, Storage},
     vk::Limits,
 };
@@ -69,12 +69,19 @@ fn bounds_are_those_of_what_is_there_whatever_the_order() {
         for (side, expected) in chunk.bounds.iter().zip(least) {
             assert!((*side - expected).length() < 1e-6, "{side} {expected}");
         }
-        // Their groups hold the blocks.
-        assert_eq!(chunk.groups.len(), chunk.blocks.len().div_ceil(GROUP_BLOCKS));
-        for (number, block) in chunk.blocks.iter().enumerate() {
-            let group = &chunk.groups[number / GROUP_BLOCKS];
-            assert!(group.center.distance(block.center) + block.radius <= group.radius + 1e-9, "{number}");
-            assert!(block.largest_radius <= group.largest_radius, "{number}");
+        // What is above them holds the blocks.
+        assert!(chunk.tree.levels.is_empty(), "there are few");
+        let many: Vec<_> = chunk.blocks.iter().cycle().take(90).cloned().collect();
+        let mut tree = BlockTree::new(&many);
+        tree.levels.insert(0, many);
+        assert!(tree.levels.len() > 1);
+        for levels in tree.levels.windows(2) {
+            assert_eq!(levels[1].len(), levels[0].len().div_ceil(CHILDREN));
+            for (number, block) in levels[0].iter().enumerate() {
+                let run = &levels[1][number / CHILDREN];
+                assert!(run.center.distance(block.center) + block.radius <= run.radius + 1e-9, "{number}");
+                assert!(block.largest_radius <= run.largest_radius, "{number}");
+            }
         }
         let count: u32 = chunk.radii.iter().map(|step| step.count).sum();
         assert!(count == 1000 && chunk.radii.last().unwrap().radius >= largest);

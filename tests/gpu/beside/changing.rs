@@ -64,7 +64,7 @@ fn placed_scenes_are_seen_as_if_they_had_been_uploaded_there() {
     let [own, moved] = [own, moved].map(|scene| beside.upload(&scene));
     // How much of a pixel an edge covers follows from overlaps, which are measured on a grid of the world's axes.
     let hard = Settings { size_px: SIZE_PX, edges: Edges::Hard, ..Settings::default() };
-    let plane = ClipPlanes(vec![[0.4, 0.9, 0.1, 0.1]]);
+    let plane = ClipPlanes([[0.4, 0.9, 0.1, 0.1]].into());
     let cut = Settings { clip_planes: plane, ..hard.clone() };
     let mut seen = Vec::new();
     for (name, camera, settings) in [

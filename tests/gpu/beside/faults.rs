@@ -178,7 +178,8 @@ fn renderings_that_a_device_does_not_have_are_refused() {
     let plain = Rendering { color_formats: vec![COLOR_FORMAT], ..Rendering::default() };
     let refused = |rendering: Rendering| View::new(&beside.renderer, &rendering).err().unwrap().to_string();
     let of = |color_formats| Rendering { color_formats, ..plain.clone() };
-    assert!(refused(of(Vec::new())).starts_with("color_formats: the first"));
+    let neither = Rendering { depth_format: vk::Format::UNDEFINED, ..of(Vec::new()) };
+    assert!(refused(neither).starts_with("color_formats: there is neither color nor depth"));
     assert!(refused(of(vec![vk::Format::D32_SFLOAT])).starts_with("color_formats: the first"));
     assert!(refused(of(vec![COLOR_FORMAT, vk::Format::D32_SFLOAT])).contains("expected formats of color"));
     assert!(refused(of(vec![COLOR_FORMAT; 65])).contains("expected at most"));

@@ -1,5 +1,7 @@
 //! What a host has for each of its frames in flight.
 
+use std::sync::Mutex;
+
 use ash::vk;
 use surfel::{
     frame::{FrameSlot, Target},
@@ -100,6 +102,20 @@ impl InFlight {
                 host.device.reset_fences(&[self.fence]).unwrap();
                 ours.epoch_done(epoch);
             }
+        }
+    }
+
+    /// The same where several threads submit, while none does: in layers of before March 2024 what a wait has settled comes back with a submission that another thread is in the midst of, and is
+    /// taken for a hazard (Vulkan-ValidationLayers, issue 7250, mended by 7663). Until the frame is done others have their turns.
+    pub fn wait_in_turn(&mut self, host: &Host, ours: &Device, turn: &Mutex<()>) {
+        loop {
+            let turn = turn.lock().unwrap();
+            // SAFETY: the fence was submitted.
+            if unsafe { host.device.get_fence_status(self.fence) }.unwrap() {
+                return self.wait(host, ours);
+            }
+            drop(turn);
+            std::thread::yield_now();
         }
     }
 

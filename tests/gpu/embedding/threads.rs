@@ -48,7 +48,7 @@ fn two_threads_draw_on_one_device() {
                 let _turn = turn.lock().unwrap();
                 frame.submit(&host, &ours);
             }
-            frame.wait(&host, &ours);
+            frame.wait_in_turn(&host, &ours, &turn);
             // SAFETY: waited for.
             pictures.push(unsafe { frame.pixels.bytes() }.to_vec());
         }
@@ -71,12 +71,6 @@ fn two_threads_draw_on_one_device() {
     assert_eq!(ours.memory_in_use(), (0, 0));
     drop(ours);
     assert_eq!(host.destroy(), [] as [String; 0]);
-}
-
-/// What the layer said, but for hazards across submissions: layers of 1.3.239 tell of some between a frame and the one before it in the same memory whose fence was waited for,
-/// where fences of several threads are waited for at once.
-fn said(host: &Host) -> Vec<String> {
-    host.said().into_iter().filter(|message| !message.contains("SYNC-HAZARD")).collect()
 }
 
 /// Rounds, each with a renderer that has no pipelines yet, and frames in each of them for every kind of frame.
@@ -128,7 +122,7 @@ fn threads_that_share_a_renderer_want_the_same_pipelines_at_once() {
                         let _turn = turn.lock().unwrap();
                         frame.submit(&host, &ours);
                     }
-                    frame.wait(&host, &ours);
+                    frame.wait_in_turn(&host, &ours, &turn);
                     // SAFETY: waited for.
                     pictures.push(unsafe { frame.pixels.bytes() }.to_vec());
                 }
@@ -160,7 +154,7 @@ fn threads_that_share_a_renderer_want_the_same_pipelines_at_once() {
         made.push((renderer.pipelines_made(), names.len() as u64));
         frames.into_iter().for_each(|frame| frame.destroy(&host));
         drop((prepared, renderer));
-        assert_eq!(said(&host), [] as [String; 0]);
+        assert_eq!(host.said(), [] as [String; 0]);
     }
     println!("pipelines made, and those that stayed: {made:?}");
     assert!(made.iter().any(|(made, stayed)| made > stayed), "no two threads met: {made:?}");

@@ -40,7 +40,7 @@ pub fn words(settings: &Settings) -> String {
 /// A plane through a point, of which what is farther along an axis is left; none where there is one.
 fn plane(settings: &Settings, point: DVec3, axis: DVec3) -> Settings {
     let clip_planes = match settings.clip_planes.0.is_empty() {
-        true => ClipPlanes(vec![[axis.x, axis.y, axis.z, axis.dot(point)]]),
+        true => ClipPlanes([[axis.x, axis.y, axis.z, axis.dot(point)]].into()),
         false => ClipPlanes::default(),
     };
     Settings { clip_planes, clip_box: ClipBox(None), ..settings.clone() }
@@ -77,8 +77,8 @@ mod tests {
         let none = Settings::default();
         let cut = plane(&none, DVec3::new(0.0, 0.0, 2.0), DVec3::Z);
         assert_eq!(words(&cut), "--clip-plane 0,0,1,2");
-        assert_eq!(cut.clip_planes.0, [[0.0, 0.0, 1.0, 2.0]]);
-        assert_eq!(moved(&cut, 0.5, 0.1).clip_planes.0, [[0.0, 0.0, 1.0, 2.5]]);
+        assert_eq!(*cut.clip_planes.0, [[0.0, 0.0, 1.0, 2.0]]);
+        assert_eq!(*moved(&cut, 0.5, 0.1).clip_planes.0, [[0.0, 0.0, 1.0, 2.5]]);
         assert_eq!(plane(&cut, DVec3::ZERO, DVec3::Z), none);
         let whole = around(&cut, DVec3::X, 2.0);
         assert!(whole.clip_planes.0.is_empty());

@@ -41,7 +41,7 @@ impl TilePlan {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let of_blocks = Self::of_blocks(draws, seen, self.rows.clone(), self.hidden, settings, limits);
+        let of_blocks = self.of_rows_of_it(draws, seen, self.rows.clone(), settings, limits);
         let draws_as_much = |of_blocks: &Self| self.may_be_large || !of_blocks.may_be_large;
         let better = |of_blocks: &Self| draws_as_much(of_blocks) && of_blocks.bytes() < self.bytes();
         of_blocks.filter(better).unwrap_or(self)
@@ -57,6 +57,20 @@ impl TilePlan {
         limits: &Limits,
     ) -> Option<Self> {
         Self::of_rows(draws, seen.boxes(&rows), rows, culls_hidden, settings, limits)
+    }
+
+    /// The same for some rows of what this one draws.
+    pub(crate) fn of_rows_of_it(
+        &self,
+        draws: &[Draw<'_>],
+        seen: &PotentiallyVisibleBlocks<'_>,
+        rows: Range<u32>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Option<Self> {
+        let size_px = settings.size_px;
+        let plan = Self::of_boxes(draws.len(), seen.boxes(&rows), size_px, limits, self.invocations)?;
+        plan.within(rows).as_drawn(draws, self.hidden, limits)
     }
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
@@ -75,9 +89,13 @@ impl TilePlan {
             |invocations| Self::of_boxes(draws.len(), boxes.clone(), settings.size_px, limits, invocations);
         // Twice as many tiles of a huge image may have no room; in no band then.
         let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
+        plan.as_drawn(draws, culls_hidden, limits)
+    }
+
+    fn as_drawn(self, draws: &[Draw<'_>], culls_hidden: bool, limits: &Limits) -> Option<Self> {
         let plan = match draws.iter().any(|draw| draw.chunk.clipped) {
-            true => plan.with_clips(limits)?,
-            false => plan,
+            true => self.with_clips(limits)?,
+            false => self,
         };
         Some(if culls_hidden { plan.without_hidden() } else { plan })
     }

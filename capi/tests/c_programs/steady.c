@@ -1,0 +1,105 @@
+#include "check.h"
+
+/* What the library takes from the heap: the linker puts these in the place of what its static form calls. */
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *old, size_t size);
+int __real_posix_memalign(void **at, size_t alignment, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+int __wrap_posix_memalign(void **at, size_t alignment, size_t size);
+
+static unsigned long taken;
+
+void *__wrap_malloc(size_t size) {
+    taken++;
+    return __real_malloc(size);
+}
+void *__wrap_calloc(size_t count, size_t size) {
+    taken++;
+    return __real_calloc(count, size);
+}
+void *__wrap_realloc(void *old, size_t size) {
+    taken++;
+    return __real_realloc(old, size);
+}
+int __wrap_posix_memalign(void **at, size_t alignment, size_t size) {
+    taken++;
+    return __real_posix_memalign(at, alignment, size);
+}
+
+static SurfelHostImage image(const Attachment *given, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
+    return (SurfelHostImage){.sType = SURFEL_STRUCTURE_TYPE_HOST_IMAGE, .size = sizeof(SurfelHostImage),
+                             .image = given->image, .view = given->view, .beforeStages = stages,
+                             .beforeAccess = access, .afterStages = stages, .afterAccess = access,
+                             .beforeLayout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL,
+                             .afterLayout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL};
+}
+
+void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
+    enum { FRAMES = 20, SETTLED = 12, OF_TWO_CALLS = 6 };
+    SurfelPreparedScene *ball = upload(engine, device, renderer, 1);
+    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
+                                       .colorFormats = &format, .colorFormatCount = 1,
+                                       .depthFormat = VK_FORMAT_D32_SFLOAT};
+    SurfelView *view;
+    OK(surfel_view_create(renderer, &rendering, &view));
+    SurfelSettings *settings;
+    OK(surfel_settings_create(&settings));
+    OK(surfel_settings_set(settings, "clip-plane", "1,0.5,0.3,-0.6"));
+    const SurfelPreparedScene *scenes[] = {ball, ball};
+    const double places[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1};
+    const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes,
+                               .worldFromScene = places, .settings = settings, .sceneCount = 2,
+                               .width = WIDTH, .height = HEIGHT,
+                               .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1},
+                               .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
+    const SurfelHostImage color = image(&engine->color, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                        VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT);
+    const SurfelHostImage depth = image(&engine->depth, VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+                                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT);
+    const SurfelHostImage *colors[] = {&color}, *none[] = {NULL};
+    const size_t bytes = sizeof(float) * 4 * WIDTH * HEIGHT;
+    float *by_two_calls = malloc(bytes);
+    TRUE(by_two_calls);
+    for (int number = 0; number < FRAMES; number++) {
+        engine_begin(engine);
+        engine_begin_rendering(engine, 1);
+        engine_board(engine, (VkRect2D){{0, 0}, {WIDTH / 2, HEIGHT}}, 0.1f / 4);
+        engine_end_rendering(engine);
+        const unsigned long before = taken;
+        if (number < OF_TWO_CALLS) {
+            OK(surfel_view_prepare(view, engine->commands, &frame));
+            engine_begin_rendering(engine, 0);
+            OK(surfel_view_draw(view, engine->commands));
+            engine_end_rendering(engine);
+        } else {
+            OK(surfel_view_record(view, engine->commands, &frame, colors, 1, &depth));
+        }
+        if (number >= SETTLED && taken != before) {
+            printf("frame %d takes %lu pieces from the heap\n", number, taken - before);
+            exit(1);
+        }
+        engine_submit(engine);
+        uint64_t epoch;
+        OK(surfel_device_end_epoch(device, &epoch));
+        OK(surfel_device_epoch_done(device, epoch));
+        if (number < OF_TWO_CALLS) memcpy(by_two_calls, engine->pixels, bytes);
+        else TRUE(memcmp(by_two_calls, engine->pixels, bytes) == 0);
+    }
+    TRUE(taken > 100);
+    IS(OPTION, surfel_view_record(view, engine->commands, &frame, none, 1, &depth), "colors: expected an image for each format");
+    IS(OPTION, surfel_view_record(view, engine->commands, &frame, colors, 1, NULL), "depth: the view's rendering has one");
+    IS(INVALID_ARGUMENT, surfel_view_record(view, engine->commands, &frame, colors, 9, &depth), "colorCount is 9: expected at most 8");
+    IS(INVALID_ARGUMENT, surfel_view_record(view, VK_NULL_HANDLE, &frame, colors, 1, &depth), "commands is NULL");
+    SurfelHostImage wrong = color;
+    wrong.view = VK_NULL_HANDLE;
+    colors[0] = &wrong;
+    IS(INVALID_ARGUMENT, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "a color: image or view is NULL");
+    free(by_two_calls);
+    surfel_settings_destroy(settings);
+    surfel_view_destroy(view);
+    surfel_prepared_scene_destroy(ball);
+}

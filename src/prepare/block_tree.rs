@@ -1,0 +1,62 @@
+//! Runs of a chunk's blocks, and runs of those, each with bounds of all that is in it: a frame looks at few of them, however many splats there are.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::blocks::Block;
+
+/// Nodes that have one above them.
+pub const CHILDREN: usize = 4;
+
+/// Nodes on top at most: with their blocks' splats on a Z-curve they lie apart from each other.
+const MOST_ON_TOP: usize = 32;
+
+/// Bounds of runs of blocks, which lie near each other as their splats do.
+#[derive(Clone, Debug, Default)]
+pub struct BlockTree {
+    /// Those of [`CHILDREN`] blocks, then those of as many of these, and so on up to the top. None of few blocks, or of such with levels of detail.
+    pub levels: Vec<Vec<Block>>,
+}
+
+impl BlockTree {
+    /// Over these blocks.
+    pub(super) fn new(blocks: &[Block]) -> Self {
+        let mut levels: Vec<Vec<Block>> = Vec::new();
+        if blocks.iter().any(|block| block.levels.is_some()) {
+            return Self { levels };
+        }
+        loop {
+            let below = levels.last().map_or(blocks, |level| level);
+            if below.len() <= MOST_ON_TOP {
+                return Self { levels };
+            }
+            let level = below.chunks(CHILDREN).map(around).collect();
+            levels.push(level);
+        }
+    }
+}
+
+/// Bounds of the splats of blocks. Angles between directions add up at most; a rounding has a reserve where bounds are looked at.
+fn around(blocks: &[Block]) -> Block {
+    let [lo, hi] = blocks.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], block| {
+        [lo.min(block.center - block.radius), hi.max(block.center + block.radius)]
+    });
+    let center = 0.5 * (lo + hi);
+    let sum: DVec3 = blocks.iter().map(|block| block.axis).sum();
+    let axis = sum.try_normalize();
+    let spread_of = |axis: DVec3| {
+        blocks.iter().map(|block| axis.angle_between(block.axis) + block.spread_rad).fold(0.0, f64::max)
+    };
+    let spread_rad = axis.map_or(PI, spread_of).min(PI);
+    Block {
+        count: blocks.iter().map(|block| block.count).sum(),
+        center,
+        radius: blocks.iter().map(|block| block.center.distance(center) + block.radius).fold(0.0, f64::max),
+        axis: axis.unwrap_or(DVec3::Z),
+        spread_rad,
+        spread_sin_cos: spread_rad.sin_cos().into(),
+        largest_radius: blocks.iter().map(|block| block.largest_radius).fold(0.0, f64::max),
+        levels: None,
+    }
+}
