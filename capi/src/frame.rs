@@ -96,7 +96,7 @@ impl SceneList {
 /// The same memory for scenes that live for another time. The list that is collected takes the place of the one it is collected from.
 fn emptied<'b>(mut list: Vec<Placed<'_>>) -> Vec<Placed<'b>> {
     list.clear();
-    list.into_iter().filter_map(|_| None).collect()
+    list.into_iter().map_while(|_| None).collect()
 }
 
 /// Calls `then` with the frame that C means.

@@ -70,7 +70,7 @@ impl TilePlan {
     ) -> Option<Self> {
         let size_px = settings.size_px;
         let plan = Self::of_boxes(draws.len(), seen.boxes(&rows), size_px, limits, self.invocations)?;
-        plan.within(rows).as_drawn(draws, self.hidden, limits)
+        plan.within(rows).when_drawn(draws, self.hidden, limits)
     }
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
@@ -89,10 +89,10 @@ impl TilePlan {
             |invocations| Self::of_boxes(draws.len(), boxes.clone(), settings.size_px, limits, invocations);
         // Twice as many tiles of a huge image may have no room; in no band then.
         let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
-        plan.as_drawn(draws, culls_hidden, limits)
+        plan.when_drawn(draws, culls_hidden, limits)
     }
 
-    fn as_drawn(self, draws: &[Draw<'_>], culls_hidden: bool, limits: &Limits) -> Option<Self> {
+    fn when_drawn(self, draws: &[Draw<'_>], culls_hidden: bool, limits: &Limits) -> Option<Self> {
         let plan = match draws.iter().any(|draw| draw.chunk.clipped) {
             true => self.with_clips(limits)?,
             false => self,
