@@ -63,7 +63,11 @@ pub fn read_octree(bytes: &[u8]) {
             let files = [("metadata.json", metadata), ("hierarchy.bin", hierarchy), ("octree.bin", nodes)];
             (written(&files), "metadata.json")
         }
-        _ => (written(&[("a.copc.laz", bytes)]), "a.copc.laz"),
+        // What is not COPC is taken for Potree's, whose files are there then.
+        _ => {
+            let files = [("a.copc.laz", bytes), ("hierarchy.bin", b"".as_slice()), ("octree.bin", b"")];
+            (written(&files), "a.copc.laz")
+        }
     };
     let read = PointOctree::open(&folder.join(name), &LoadOptions::default()).and_then(|mut octree| {
         let all = octree.choose(&|_| true)?;
