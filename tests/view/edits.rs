@@ -95,6 +95,8 @@ fn a_number_that_is_written_into_the_panel_is_no_key_of_the_window() {
     view.wait_until("what is seen is transparent", |shot| {
         shot.size == [640, 700] && screen.shot([300, 700]).differs_from(&before) > 5000
     });
+    // What is pressed within the frame that ends the number is the panel's still.
+    thread::sleep(Duration::from_secs(1));
     // Neither was all reset, nor are splats larger, nor is there a place of a path.
     let copied = view.camera();
     assert!(!copied.is_empty());
