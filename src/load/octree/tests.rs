@@ -12,6 +12,7 @@ use crate::{
 #[path = "../../../tests/common/octree_files.rs"]
 mod files;
 mod hostile;
+mod limits;
 
 use files::{CloudPoint, OFFSET, Octree, SCALE};
 
@@ -281,23 +282,4 @@ fn potree_of_other_kinds_and_wrong_hierarchies_are_refused() {
 fn entries_of(metadata: &str) -> String {
     let bytes = metadata.split("\"firstChunkSize\": ").nth(1).unwrap().split(',').next().unwrap();
     format!("{} entries", bytes.parse::<usize>().unwrap() / 22)
-}
-
-#[test]
-fn points_have_a_limit() {
-    let (copc, potree) = (octree(100).copc(1).0, octree(100).potree(1));
-    for (most, refused) in [(100, false), (99, true)] {
-        let mut options = small();
-        options.limits.points = most;
-        let opened = [
-            PointOctree::of_copc(source("a.copc.laz", copc.clone()), &options),
-            of_potree_within(potree.clone(), &options.limits),
-        ];
-        for opened in opened {
-            assert_eq!(opened.is_err(), refused);
-            if let Err(error) = opened {
-                assert!(error.to_string().ends_with("expected at most 99"), "{error}");
-            }
-        }
-    }
 }
