@@ -11,6 +11,8 @@ pub(super) const FLAT: f64 = 0.2;
 /// A plane through points, of which one is at 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
+    /// The mean of the points.
+    pub mean: DVec3,
     /// Unit; the side means nothing.
     pub normal: DVec3,
     /// Thickness over width, 0 to 1.
@@ -44,10 +46,12 @@ impl Plane {
         // Rounding leaves that much of a line's width; NaN, where squares overflow, is none.
         let has_width = middle > 1e-14 * most;
         if !has_width {
-            return Self { normal: across(along, most > 0.0), thickness: 0.0, width: 0.0, along_line: false };
+            let normal = across(along, most > 0.0);
+            return Self { mean: m, normal, thickness: 0.0, width: 0.0, along_line: false };
         }
         let ratio = |a: f64, b: f64| (a.max(0.0) / b).sqrt();
-        Self { normal, thickness: ratio(least, middle), width: ratio(middle, most), along_line: false }
+        let (thickness, width) = (ratio(least, middle), ratio(middle, most));
+        Self { mean: m, normal, thickness, width, along_line: false }
     }
 }
 

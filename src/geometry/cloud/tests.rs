@@ -81,10 +81,10 @@ struct Case {
 fn cases(count: usize) -> Vec<Case> {
     type Surface = fn(&mut Surfaces, f64) -> Sample;
     let surfaces: [(&str, Surface, [f64; 2], [f64; 2]); 4] = [
-        ("sphere", |s, _| s.sphere(), [1.0, 4.0], [3.0, 7.0]),
-        ("torus", |s, _| s.torus(), [2.0, 8.0], [4.0, 10.0]),
-        ("cube", |s, _| s.cube(), [3.0, 90.0], [9.0, 60.0]),
-        ("plate", |s, apart| s.plate(apart), [0.5, 1.0], [5.0, 15.0]),
+        ("sphere", |s, _| s.sphere(), [1.0, 4.0], [2.0, 5.0]),
+        ("torus", |s, _| s.torus(), [2.0, 8.0], [2.5, 7.0]),
+        ("cube", |s, _| s.cube(), [3.0, 90.0], [9.0, 65.0]),
+        ("plate", |s, apart| s.plate(apart), [0.5, 1.0], [2.5, 9.0]),
     ];
     let mut s = Surfaces(SplitMix(11));
     // A random point's share of a side's area is 8/count, and a disk's radius 1.5 times its root.

@@ -1,0 +1,171 @@
+//! Normals of a noisy cloud, from patches of the surface: planes at a part of the points, and how they turn from one to the next.
+//!
+//! **A patch** has the plane through the 48 nearest points about its middle, or the sheet among them. Its normal has less noise than
+//! theirs, but as much as 48 points leave. Those of the 12 nearest patches on the same face are fitted once more, by least squares, as
+//! n(x) = n₀ + A (x − x₀) with the mean normal n₀ at the mean place x₀: a constant would be off by the turn of the surface from
+//! a point to the middle of what it has neighbors of, which on a torus is more than the noise. A direction along which patches do not lie, across the
+//! surface, says nothing of A: a ridge of [`RIDGE`] keeps it zero.
+//!
+//! A point takes the normal that the patch nearest to it tells at its place; nearest in space and along the patch's normal, so that
+//! beside an edge it is rather that of the face on which the point lies.
+
+use std::ops::Range;
+
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::{
+    fit::Plane,
+    noise::{every, nearest, or_sheet},
+    plane::{MOST_NEIGHBORS, NEIGHBORS},
+};
+use crate::geometry::neighbors::{Point, Tree};
+
+/// Every so manieth of the points that planes are fitted to is the middle of a patch. With 2 clouds take half as long again, with 8 edges have
+/// normals farther off.
+const EVERY: usize = 4;
+
+/// Cosine of the angle between normals up to which patches are of one face.
+const SAME_FACE: f64 = 0.8;
+
+/// What is added to each axis of the patches' covariance, as a part of all.
+const RIDGE: f64 = 0.03;
+
+/// So many points at most look for patches together: those about their middle.
+const GROUP: usize = 32;
+
+/// A plane of the surface.
+#[derive(Clone, Copy)]
+struct Facet {
+    /// The mean of the points on it.
+    mean: DVec3,
+    /// Unit.
+    normal: DVec3,
+}
+
+/// Normals about a facet: `normal + turn * (x − mean)` at x, no farther than `reach` from `mean`.
+#[derive(Clone, Copy)]
+struct Patch {
+    facet: Facet,
+    mean: DVec3,
+    normal: DVec3,
+    turn: DMat3,
+    reach: f64,
+}
+
+/// The normals at all points of a tree, of patches through the points of a coarser one or of itself; their sides mean nothing.
+pub(super) fn normals(tree: &Tree, coarse: &Tree) -> Vec<DVec3> {
+    let middles = every(coarse, EVERY);
+    let facets: Vec<Facet> =
+        middles.points().par_iter().map(|middle| Facet::at(middle.position, coarse)).collect();
+    let patches: Vec<Patch> = (0..facets.len())
+        .into_par_iter()
+        .map(|place| Patch::new(facets[place], near(&middles, middles.points()[place].position, &facets)))
+        .collect();
+    let of_group = |group: Range<usize>| {
+        let points = &tree.points()[group];
+        let middle = points.iter().map(|point| point.position).sum::<DVec3>() / points.len() as f64;
+        let patches: Vec<&Patch> = near(&middles, middle, &patches).collect();
+        points.iter().map(|point| normal(point, &patches)).collect::<Vec<_>>()
+    };
+    tree.groups(GROUP).into_par_iter().flat_map_iter(of_group).collect()
+}
+
+/// What belongs to the points of a tree that are nearest to a place.
+fn near<'a, T>(tree: &Tree, place: DVec3, all: &'a [T]) -> impl Iterator<Item = &'a T> + Clone {
+    let mut found = [(0.0, 0); NEIGHBORS];
+    tree.nearest_places_to(place, &mut found);
+    found.into_iter().filter_map(|(_, at)| all.get(at as usize))
+}
+
+fn normal(point: &Point, patches: &[&Patch]) -> DVec3 {
+    let from = |patch: &Patch| {
+        let offset = point.position - patch.facet.mean;
+        offset.length_squared() + patch.facet.normal.dot(offset).powi(2)
+    };
+    let nearest = patches.iter().min_by(|a, b| from(a).total_cmp(&from(b)));
+    nearest.map_or(DVec3::Z, |patch| patch.normal_at(point.position))
+}
+
+impl Facet {
+    /// Of the points about a place.
+    fn at(place: DVec3, points: &Tree) -> Self {
+        let offsets = nearest(points, place, MOST_NEIGHBORS);
+        let plane = or_sheet(Plane::fit(&offsets, |_| true), &offsets);
+        Self { mean: place + plane.mean, normal: plane.normal }
+    }
+}
+
+impl Patch {
+    /// Of a facet with those nearest to it, itself among them.
+    fn new<'a>(facet: Facet, near: impl Iterator<Item = &'a Facet> + Clone) -> Self {
+        let of_face = near.filter_map(|other| {
+            let dot = other.normal.dot(facet.normal);
+            (dot.abs() > SAME_FACE).then_some((other.mean, dot.signum() * other.normal))
+        });
+        let count = of_face.clone().count() as f64;
+        let sum = |[at, normal]: [DVec3; 2], of: (DVec3, DVec3)| [at + of.0, normal + of.1];
+        let [mean, normal] = of_face.clone().fold([DVec3::ZERO; 2], sum).map(|sum| sum / count);
+        let reach = of_face.clone().map(|(at, _)| at.distance(mean)).fold(0.0, f64::max);
+        // By lengths of about 1, of which no square underflows.
+        let (mut places, mut turns) = (DMat3::from_diagonal(DVec3::splat(f64::MIN_POSITIVE)), DMat3::ZERO);
+        for (at, other) in of_face {
+            let offset = (at - mean) / reach;
+            places += outer(offset, offset);
+            turns += outer(other - normal, offset);
+        }
+        let ridge = RIDGE * (places.x_axis.x + places.y_axis.y + places.z_axis.z);
+        let turn = turns * (places + DMat3::from_diagonal(DVec3::splat(ridge))).inverse() * reach.recip();
+        Self { facet, mean, normal, turn, reach }
+    }
+
+    /// That of the facet where there is no other.
+    fn normal_at(&self, place: DVec3) -> DVec3 {
+        let offset = (place - self.mean).clamp_length_max(self.reach);
+        (self.normal + self.turn * offset).try_normalize().unwrap_or(self.facet.normal)
+    }
+}
+
+fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::SplitMix;
+
+    fn tree(positions: impl IntoIterator<Item = DVec3>) -> Tree {
+        Tree::new((0..).zip(positions).map(|(number, position)| Point { position, number }).collect())
+    }
+
+    /// A part of a pipe along y, of which each 48 points look from 12° to one side to 12° to the other.
+    #[test]
+    fn normals_turn_with_the_surface_and_no_farther_than_patches_tell() {
+        let mut random = SplitMix(4);
+        let mut on_pipe = |_| {
+            let (sin, cos) = (random.unit() - 0.5).sin_cos();
+            DVec3::new(sin, random.unit(), cos)
+        };
+        let mut positions: Vec<DVec3> = (0..1000).map(&mut on_pipe).collect();
+        positions.push(DVec3::new(100.0, 0.5, 0.8));
+        let tree = tree(positions);
+        for (point, normal) in tree.points().iter().zip(normals(&tree, &tree)) {
+            let truth = DVec3::new(point.position.x, 0.0, point.position.z).normalize();
+            let angle = normal.dot(truth).abs().min(1.0).acos().to_degrees();
+            match point.number {
+                1000 => assert!(normal.dot(DVec3::new(0.5, 0.0, 0.866)).abs() > 0.9, "{normal}"),
+                _ => assert!(angle < 6.0, "{angle}° at {point:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn points_that_are_one_place_or_lie_on_a_line_have_normals_all_the_same() {
+        let line = tree((0..300).map(|i| DVec3::X * f64::from(i)));
+        assert!(normals(&line, &line).iter().all(|n| n.is_normalized() && n.x.abs() < 1e-9));
+        for one in [tree([DVec3::ONE; 300]), tree([1e-180; 300].map(DVec3::splat)), tree([DVec3::NAN; 5])] {
+            assert!(normals(&one, &one).iter().all(|n| n.is_normalized()));
+        }
+    }
+}
