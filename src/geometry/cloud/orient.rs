@@ -86,18 +86,25 @@ pub(super) fn orient(
         normal: DVec3,
         outward: f64,
     }
-    let mut sums = vec![Sum::default(); positions.len()];
+    // A root is the first place of its set.
+    let (mut sums, mut numbers) = (Vec::new(), vec![0_u32; positions.len()]);
     for (i, &up) in sets.iter().enumerate() {
+        let root = (up & !TURNED) as usize;
+        if root == i {
+            numbers[i] = sums.len() as u32;
+            sums.push(Sum::default());
+        }
         if up & TURNED != 0 {
             normals[i] = -normals[i];
         }
-        let sum = &mut sums[(up & !TURNED) as usize];
+        let sum = &mut sums[numbers[root] as usize];
         sum.area += areas[i];
         sum.center += areas[i] * positions[i];
         sum.normal += areas[i] * normals[i];
     }
+    let number = |up: u32| numbers[(up & !TURNED) as usize] as usize;
     for (i, &up) in sets.iter().enumerate() {
-        let sum = &mut sums[(up & !TURNED) as usize];
+        let sum = &mut sums[number(up)];
         let from_center = positions[i] - sum.center / sum.area;
         sum.outward += areas[i] * normals[i].dot(from_center);
     }
@@ -105,8 +112,9 @@ pub(super) fn orient(
         true => sum.normal[sum.normal.abs().max_position()] < 0.0,
         false => sum.outward < 0.0,
     };
+    let turned: Vec<bool> = sums.iter().map(turn).collect();
     for (normal, &up) in normals.iter_mut().zip(&sets) {
-        if turn(&sums[(up & !TURNED) as usize]) {
+        if turned[number(up)] {
             *normal = -*normal;
         }
     }
