@@ -6,8 +6,9 @@
 //! a point to the middle of what it has neighbors of, which on a torus is more than the noise. A direction along which patches do not lie, across the
 //! surface, says nothing of A: a ridge of [`RIDGE`] keeps it zero.
 //!
-//! A point takes the normal that the patch nearest to it tells at its place; nearest in space and along the patch's normal, so that
-//! beside an edge it is rather that of the face on which the point lies.
+//! A point takes the mean of what the patches about it tell at its place, weighted by how near they are; in space and along their
+//! normals, so that beside an edge they are rather those of the face on which the point lies. Of the nearest alone, normals would change at
+//! once somewhere beside an edge, where 60 of 2 million places of a noisy cube were in no disk then.
 
 use std::ops::Range;
 
@@ -30,6 +31,9 @@ const SAME_FACE: f64 = 0.8;
 
 /// What is added to each axis of the patches' covariance, as a part of all.
 const RIDGE: f64 = 0.03;
+
+/// Patches so many times as far as the nearest, squared, tell nothing.
+const FARTHEST: f64 = 6.0;
 
 /// So many points at most look for patches together: those about their middle.
 const GROUP: usize = 32;
@@ -78,13 +82,22 @@ fn near<'a, T>(tree: &Tree, place: DVec3, all: &'a [T]) -> impl Iterator<Item = 
     found.into_iter().filter_map(|(_, at)| all.get(at as usize))
 }
 
+/// What the patches near a point tell.
 fn normal(point: &Point, patches: &[&Patch]) -> DVec3 {
-    let from = |patch: &Patch| {
-        let offset = point.position - patch.facet.mean;
-        offset.length_squared() + patch.facet.normal.dot(offset).powi(2)
-    };
-    let nearest = patches.iter().min_by(|a, b| from(a).total_cmp(&from(b)));
-    nearest.map_or(DVec3::Z, |patch| patch.normal_at(point.position))
+    let mut away = [f64::INFINITY; NEIGHBORS];
+    away.iter_mut().zip(patches).for_each(|(away, patch)| *away = patch.facet.away(point.position));
+    let nearest = (0..patches.len()).min_by(|&a, &b| away[a].total_cmp(&away[b]));
+    let Some(nearest) = nearest else { return DVec3::Z };
+    let side = patches[nearest].normal_at(point.position);
+    let mut sum = side;
+    for (i, patch) in patches.iter().enumerate().filter(|(i, _)| *i != nearest) {
+        let weight = (1.0 - (away[i] - away[nearest]) / ((FARTHEST - 1.0) * away[nearest])).max(0.0).powi(2);
+        if weight > 0.0 {
+            let normal = patch.normal_at(point.position);
+            sum += normal * weight.copysign(normal.dot(side));
+        }
+    }
+    sum.try_normalize().unwrap_or(side)
 }
 
 impl Facet {
@@ -93,6 +106,12 @@ impl Facet {
         let offsets = nearest(points, place, MOST_NEIGHBORS);
         let plane = or_sheet(Plane::fit(&offsets, |_| true), &offsets);
         Self { mean: place + plane.mean, normal: plane.normal }
+    }
+
+    /// How far a place is from it, squared; what is along the normal counts twice.
+    fn away(&self, place: DVec3) -> f64 {
+        let offset = place - self.mean;
+        offset.length_squared() + self.normal.dot(offset).powi(2)
     }
 }
 
