@@ -1,9 +1,10 @@
 //! How coarse a cloud must be looked at so that its noise is small against what is looked at.
 //!
 //! Where the 12 nearest neighbors of most points are as thick as wide, planes through them mean nothing. Planes are then fitted
-//! to the 48 nearest of all points, of every 4th, of every 16th and so on: the first of these in which most are flat, or on a
-//! sheet that is. That is as many points a plane at any coarseness. A million points of a ball with 1% noise need every 64th.
-//! What is fitted are [`patches`], fewer than points, which tell the normals of all.
+//! to the 48 nearest of all points, of every 4th, of every 16th and so on: the first of these in which most are flat enough, or on a
+//! sheet that is, or else the flattest. That is as many points a plane at any coarseness. What is fitted are [`patches`], fewer than points,
+//! which tell the normals of all, and halve the error of each plane: so these may have a thickness that one plane alone must not, and the face
+//! of a statue keeps its features. A million points of a ball with 1% noise need every 16th.
 
 use glam::DVec3;
 
@@ -18,6 +19,10 @@ use crate::geometry::neighbors::Tree;
 /// Every so manieth point is in a coarser tree, in the order of the finer one, in which neighbors lie near each other.
 const STRIDES: [usize; 6] = [4, 16, 64, 256, 1024, 4096];
 
+/// Thickness over width up to which planes of patches are flat enough, and up to which the flattest are a surface. Points in a volume have 0.9.
+const FLAT_ENOUGH: f64 = 0.4;
+const THICKEST: f64 = 0.6;
+
 /// Thickness over width above which neighbors may be of two sheets.
 const MIXED: f64 = 0.25;
 
@@ -26,15 +31,21 @@ const SAMPLES: usize = 200;
 
 /// The normals at all points, if those of 12 neighbors are too noisy and coarser ones are not; their sides mean nothing.
 pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
-    if flat_at_most(tree, tree, NEIGHBORS) {
+    if thickness(tree, tree, NEIGHBORS) <= FLAT {
         return None;
     }
-    if flat_at_most(tree, tree, MOST_NEIGHBORS) {
-        return Some(patches::normals(tree, tree));
+    let (mut least, mut flattest) = (thickness(tree, tree, MOST_NEIGHBORS), None);
+    for stride in STRIDES {
+        if least <= FLAT_ENOUGH || tree.points().len() / stride <= 4 * MOST_NEIGHBORS {
+            break;
+        }
+        let coarse = every(tree, stride);
+        let found = thickness(tree, &coarse, MOST_NEIGHBORS);
+        if found < least {
+            (least, flattest) = (found, Some(coarse));
+        }
     }
-    let mut coarser = STRIDES.into_iter().map(|stride| every(tree, stride));
-    let coarse = coarser.find(|coarse| flat_at_most(tree, coarse, MOST_NEIGHBORS))?;
-    Some(patches::normals(tree, &coarse))
+    (least <= THICKEST).then(|| patches::normals(tree, flattest.as_ref().unwrap_or(tree)))
 }
 
 /// The tree of every so manieth point.
@@ -42,20 +53,21 @@ pub(super) fn every(tree: &Tree, stride: usize) -> Tree {
     Tree::new(tree.points().iter().step_by(stride).copied().collect())
 }
 
-/// Whether most points are flat among their `count` nearest points of `among`, or there are not enough to tell.
-fn flat_at_most(tree: &Tree, among: &Tree, count: usize) -> bool {
+/// The median thickness of planes through the `count` points of `among` that are nearest to a point; 0 of too few points to tell.
+fn thickness(tree: &Tree, among: &Tree, count: usize) -> f64 {
     let total = tree.points().len();
     if among.points().len() <= 4 * count {
-        return among.points().len() == total;
+        return 0.0;
     }
-    let samples: Vec<usize> = (0..total).step_by(total.div_ceil(SAMPLES)).collect();
-    let is_flat = |place: &&usize| {
-        let offsets = nearest(among, tree.points()[**place].position, count);
+    let of = |place: usize| {
+        let offsets = nearest(among, tree.points()[place].position, count);
         let whole = Plane::fit(&offsets, |_| true);
         let plane = if count == NEIGHBORS { whole } else { or_sheet(whole, &offsets) };
-        plane.thickness <= FLAT
+        plane.thickness
     };
-    2 * samples.iter().filter(is_flat).count() >= samples.len()
+    let mut all: Vec<f64> = (0..total).step_by(total.div_ceil(SAMPLES)).map(of).collect();
+    let middle = (all.len() - 1) / 2;
+    *all.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 /// The plane through all neighbors, or the sheet among them.
