@@ -21,7 +21,7 @@ use super::{
     show::{ShowDesc, Shown},
     viewer::Viewer,
 };
-use crate::console;
+use crate::{allocator, console};
 
 /// The camera rests once it has not moved for so long.
 const REST: Duration = Duration::from_millis(25);
@@ -54,6 +54,9 @@ impl Viewer {
             self.tidies = (!rests).then(|| now + TIDY);
             if rests {
                 let _ = self.gpu.tidy(self.comparing.is_some());
+                if self.options.prints_frames {
+                    let _ = console::print(&self.memory());
+                }
                 if self.ui.shows_times() && self.splats_drawn.is_none() && !self.is_stale {
                     let _ = self.count_drawn();
                 }
@@ -239,6 +242,13 @@ impl Viewer {
             }
         }
         Ok(())
+    }
+
+    /// What is in use of memory, as it is printed.
+    fn memory(&self) -> String {
+        let (bytes, pieces) = self.gpu.headless.device().memory_in_use();
+        let own = allocator::live_bytes();
+        format!("at rest: {own} bytes of the program's own, {bytes} of the device's in {pieces} pieces")
     }
 
     fn shows_costs(&self) -> bool {
