@@ -73,7 +73,7 @@ fn random_input_leaves_no_more_memory_in_use() {
     let (screen, folder) = (Screen::new(), Folder::new());
     let mut view = open(&screen, &folder, true);
     let mut random = Random(3);
-    let turn = |secs| {
+    let mut turn = |secs| {
         view.play_at_random(&mut random, Duration::from_secs(secs), KEYS);
         go_back(&screen, &mut view);
         used_bytes(&view)

@@ -168,9 +168,20 @@ impl Viewer {
             views.push((which, view(settings)));
             views.extend(other.as_ref().map(|other| (Use::Other, view(other))));
         }
+        // The window goes on with the picture that is there until the pipelines of another are.
+        if self.is_unsure && !views.is_empty() {
+            self.is_unsure = !self.gpu.make_pipelines(&views)?;
+            if self.ui.set_compiling(self.is_unsure) || self.is_unsure {
+                self.window.request_redraw();
+            }
+            if self.is_unsure {
+                views.clear();
+            }
+        }
         let drawn = (!views.is_empty()).then_some(which);
+        let comparing = self.comparing.filter(|_| drawn.is_some() || self.gpu.has_picture(Use::Other));
         let first = drawn.unwrap_or(self.shown);
-        let (pictures, shown) = match self.comparing {
+        let (pictures, shown) = match comparing {
             None | Some(Comparing::Keep) => ([first; 2], Shown::One),
             Some(Comparing::Flicker) => ([Use::Other; 2], Shown::One),
             Some(Comparing::Split) => ([first, Use::Other], Shown::Both(self.split * window_px[0] as f32)),
