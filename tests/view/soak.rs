@@ -10,7 +10,7 @@ use super::{
     window::{Folder, View},
 };
 
-/// What is kept of the program's own memory and of the device's may grow by so much.
+/// What is in use of the program's own memory may grow by so much.
 const MOST_GROWTH_BYTES: u64 = 1_000_000;
 
 /// The first size, all settings and the first camera again.
@@ -46,12 +46,15 @@ fn open<'a>(screen: &'a Screen, folder: &'a Folder, is_validated: bool) -> View<
     view
 }
 
-/// Bytes of the program's own and of the device's that are in use, as it printed them when it rested last.
-fn used_bytes(view: &View<'_>) -> u64 {
+/// What was in use when it rested last, as it printed it: bytes of the program's own, bytes of the device's, and how many pieces these are.
+type Used = [u64; 3];
+
+fn used(view: &View<'_>) -> Used {
     let printed = view.printed();
     let line = printed.lines().rev().find_map(|line| line.strip_prefix("at rest: "));
     let words = line.expect("the window has rested").split_whitespace();
-    words.filter_map(|word| word.parse::<u64>().ok()).take(2).sum()
+    let mut numbers = words.filter_map(|word| word.parse().ok());
+    [(); 3].map(|()| numbers.next().unwrap())
 }
 
 /// Megabytes of memory that it has, as the system counts.
@@ -61,11 +64,15 @@ fn resident_mb(view: &View<'_>) -> f64 {
     line.trim().trim_end_matches(" kB").parse::<f64>().unwrap() * 1024e-6
 }
 
-/// What is in use after each of some turns has not grown: lists have more or less room, from turn to turn, so that the most of each half is compared.
-fn assert_constant(used: &[u64]) {
+/// What is in use after each of some turns has not grown. How much room lists have on the device differs from turn to turn, so that the most of each half is compared, and
+/// pieces are counted.
+fn assert_constant(used: &[Used]) {
+    println!("in use, bytes of its own, of the device's, and pieces: {used:?}");
     let (first, second) = used.split_at(used.len() / 2);
-    let [first, second] = [first, second].map(|half| half.iter().max().unwrap());
-    assert!(*second < first + MOST_GROWTH_BYTES, "{used:?}");
+    let most = |half: &[Used], of: usize| half.iter().map(|used| used[of]).max().unwrap();
+    let grown = [0, 1, 2].map(|of| most(second, of).saturating_sub(most(first, of)));
+    let [own, device, pieces] = grown;
+    assert!(own < MOST_GROWTH_BYTES && device < 4 * MOST_GROWTH_BYTES && pieces < 10, "{grown:?}");
 }
 
 #[test]
@@ -76,7 +83,7 @@ fn random_input_leaves_no_more_memory_in_use() {
     let mut turn = |secs| {
         view.play_at_random(&mut random, Duration::from_secs(secs), KEYS);
         go_back(&screen, &mut view);
-        used_bytes(&view)
+        used(&view)
     };
     assert_constant(&[15, 10, 10, 10].map(&mut turn));
     view.end();
@@ -91,7 +98,7 @@ fn play(is_validated: bool, keys: &str) -> f64 {
     let (screen, folder) = (Screen::new(), Folder::new());
     let mut view = open(&screen, &folder, is_validated);
     let mut random = Random(11);
-    let (mut used, mut resident) = (Vec::new(), Vec::new());
+    let (mut in_use, mut resident) = (Vec::new(), Vec::new());
     for minute in 0..=secs() / 60 {
         if minute > 0 {
             view.play_at_random(&mut random, Duration::from_secs(60), keys);
@@ -101,10 +108,10 @@ fn play(is_validated: bool, keys: &str) -> f64 {
         } else {
             go_back(&screen, &mut view);
         }
-        used.push(used_bytes(&view));
+        in_use.push(used(&view));
         resident.push(resident_mb(&view));
     }
-    println!("at first and after each minute: in use, bytes: {used:?}; resident, MB: {resident:.1?}");
+    println!("resident at first and after each minute, MB: {resident:.1?}");
     let said = view.end();
     let after_input = |line: &str| {
         let (_, told) = line.split_once("its end seen ")?;
@@ -120,7 +127,7 @@ fn play(is_validated: bool, keys: &str) -> f64 {
         at(500),
         at(999)
     );
-    assert_constant(&used);
+    assert_constant(&in_use);
     longest
 }
 
