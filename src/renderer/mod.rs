@@ -1,6 +1,7 @@
 //! The renderer: records frames of prepared scenes into command buffers that it is given. It never submits and never
 //! waits, so that an embedding host keeps device, queue and submission to itself; [`Headless`] is such a host.
 
+mod ahead;
 mod declare;
 mod explain;
 pub(crate) mod headless;
@@ -23,9 +24,12 @@ pub use paged::{Drawn, PagedScene, Prepare};
 use crate::{
     arena::Arena,
     error::{Error, Result},
-    frame::{FrameSlot, SlotParts, Target},
-    graph::{Plan, execute::Profile},
-    passes::{self, FramePlan, Inputs, Place, Shaders},
+    frame::{Execution, FrameSlot, SlotParts, Target},
+    graph::{
+        Graph, Plan,
+        execute::{Body, Profile},
+    },
+    passes::{self, FramePlan, Inputs, MissingPipelines, Place, Shaders, Source},
     prepare::{Placed, PreparedScene, prepare},
     scene::{Accumulate, Camera, Edges, Scene, Settings, Shading},
     vk::{Device, Limits, Staging},
@@ -220,27 +224,34 @@ impl Renderer {
         profile: Option<Profile>,
     ) -> Result<Arc<Plan>> {
         let arena = slot.take_arena();
-        // SAFETY: this function's contract.
-        let recorded = unsafe {
-            self.record_in(&arena, commands, slot, (scene, camera, settings), (target, readbacks), profile)
+        let record = |execution: Execution<'_>, graph: &Graph<'_, Body<'_>>, imports: &Imports<'_>| {
+            // SAFETY: this function's contract.
+            unsafe {
+                self.shaders.begin_frame(commands)?;
+                execution.record(commands, graph, imports)
+            }
         };
+        let seen = (scene, camera, settings);
+        let how = (profile, MissingPipelines::Make);
+        // SAFETY: this function's contract.
+        let recorded = unsafe { self.declare_in(&arena, slot, seen, (target, readbacks), how, record) };
         slot.give_back(arena);
         recorded
     }
 
-    /// The same, in a frame's memory.
+    /// Declares a frame in a frame's memory, with its pipelines, for what is then done with it.
     ///
     /// # Safety
-    /// As [`Self::record`].
-    unsafe fn record_in(
+    /// The frame recorded before in this slot must have finished.
+    unsafe fn declare_in<T>(
         &self,
         arena: &Arena,
-        commands: vk::CommandBuffer,
         slot: &mut FrameSlot,
         (scene, camera, settings): (&PreparedScene, &Camera, &Settings),
         (target, readbacks): (&Target, Readbacks),
-        profile: Option<Profile>,
-    ) -> Result<Arc<Plan>> {
+        (profile, missing): (Option<Profile>, MissingPipelines),
+        then: impl FnOnce(Execution<'_>, &Graph<'_, Body<'_>>, &Imports<'_>) -> Result<T>,
+    ) -> Result<T> {
         // The surface as data has no opacity of its own: a pixel is of it or not.
         let edges = if readbacks.surface.is_some() { Edges::Hard } else { settings.edges };
         let settings = &Settings { edges, ..settings.clone() };
@@ -259,13 +270,9 @@ impl Renderer {
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
         let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
         let inputs = Inputs::new(camera, settings, Place::Device(&self.shaders, descriptors));
-        let source = inputs.source.cut_by(planes);
+        let source = Source { missing, ..inputs.source.cut_by(planes) };
         let inputs = Inputs { occlusion, range: frame.range, source, ..inputs };
         let (graph, imports) = declare(arena, inputs, &frame, target, readbacks)?;
-        // SAFETY: this function's contract.
-        unsafe {
-            self.shaders.begin_frame(commands)?;
-            execution.record(commands, &graph, &imports)
-        }
+        then(execution, &graph, &imports)
     }
 }

@@ -1,5 +1,8 @@
 //! How many pipelines frames make, and how hosts give them up.
 
+use std::time::Duration;
+
+use ash::vk;
 use surfel::{hard_scenes::Hard, renderer::Headless, scene::Rasterizer};
 
 use crate::common::{PICTURE, headless, render_as, scenes, with};
@@ -42,4 +45,29 @@ fn a_camera_that_moves_makes_few_pipelines_and_those_that_are_given_up_are_made_
     render_as(&mut headless, &at(&hard, 50), PICTURE);
     keep(&headless, of_one);
     assert_eq!(count(&headless), of_one);
+}
+
+#[test]
+fn pipelines_are_made_one_a_turn_ahead_of_a_frame_that_makes_none_then() {
+    let mut headless = headless();
+    for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
+        let hard = with(&scenes::sphere_of_disks(), |settings| settings.rasterizer = rasterizer);
+        let scene = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+        let (format, before) = (vk::Format::R32G32B32A32_SFLOAT, headless.renderer.pipelines_made());
+        let turn = |headless: &Headless, time| {
+            headless.renderer.make_pipelines(&scene, &hard.camera, &hard.settings, format, time).unwrap()
+        };
+        let mut turns = 1;
+        while !turn(&headless, Duration::ZERO) {
+            assert_eq!(headless.renderer.pipelines_made(), before + turns);
+            turns += 1;
+        }
+        assert!(turns > 2 && headless.renderer.pipelines_made() == before + turns, "{turns}");
+        headless.render(&scene, &hard.camera, &hard.settings, PICTURE).unwrap();
+        assert!(turn(&headless, Duration::ZERO));
+        assert_eq!(headless.renderer.pipelines_made(), before + turns);
+        // SAFETY: every frame was waited for.
+        unsafe { headless.renderer.shaders().keep_newest(0) };
+        assert!(turn(&headless, Duration::from_secs(600)), "all in one turn");
+    }
 }

@@ -179,7 +179,25 @@ fn without_a_display_the_program_says_what_to_do() {
     assert_eq!(dead.code, 2, "{}", dead.stderr);
     let lines: Vec<_> = dead.stderr.lines().collect();
     assert!(lines.len() == 1 && lines[0].starts_with("surfel: no window can be opened: "), "{}", dead.stderr);
-    assert!(lines[0].contains("surfel render"), "{}", dead.stderr);
+    assert!(lines[0].contains("surfel render") && !lines[0].contains(".rs"), "{}", dead.stderr);
+}
+
+/// The system's loader stops at a file of that name that is none of its own.
+#[test]
+fn a_library_that_is_missing_is_named() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.write("libXcursor.so.1", "");
+    let libraries = folder.path("").display().to_string();
+    let environment = [
+        ("DISPLAY", screen.name()),
+        ("WAYLAND_DISPLAY", ""),
+        ("WAYLAND_SOCKET", ""),
+        ("LD_LIBRARY_PATH", &libraries),
+    ];
+    let run = surfel(&folder, &["view"], &environment);
+    let line = "surfel: no window can be opened: X11 lacks libXcursor.so.1; install libxcursor1 (Debian's names), or surfel render draws to a \
+                file without one\n";
+    assert_eq!((run.code, &*run.stderr), (2, line));
 }
 
 #[test]

@@ -220,11 +220,14 @@ impl<'a> View<'a> {
         self.window.parse().unwrap()
     }
 
-    /// Megabytes of memory that it has, as the system counts.
-    pub fn resident_mb(&self) -> f64 {
-        let status = fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap();
-        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
-        line.trim().trim_end_matches(" kB").parse::<f64>().unwrap() * 1024e-6
+    /// The number of its process.
+    pub fn process(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// What it has printed.
+    pub fn printed(&self) -> String {
+        self.stdout.lock().unwrap().clone()
     }
 
     /// Mouse and keys at random.

@@ -66,6 +66,11 @@ pub fn peak_bytes() -> usize {
     PEAK_BYTES.load(Ordering::Relaxed)
 }
 
+/// How many bytes there are now.
+pub fn live_bytes() -> usize {
+    LIVE_BYTES.load(Ordering::Relaxed)
+}
+
 /// Writes the most bytes of the whole run into the file that the environment variable `SURFEL_PEAK_FILE` names, if there is one: tests of
 /// files that are refused look at it.
 pub fn tell_peak() {

@@ -264,7 +264,12 @@ impl Shaders {
 
     /// Counts a pipeline that is made, or refuses to make it.
     fn makes(&self, missing: MissingPipelines, name: impl Fn() -> String) -> Result<()> {
-        if missing == MissingPipelines::Refuse {
+        let is_refused = match missing {
+            MissingPipelines::Make => false,
+            MissingPipelines::Refuse => true,
+            MissingPipelines::UpTo(most) => self.made() >= most,
+        };
+        if is_refused {
             return Err(ErrorKind::NotReady { pipeline: name() }.into());
         }
         self.made.fetch_add(1, Ordering::Relaxed);

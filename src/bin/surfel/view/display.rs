@@ -37,7 +37,9 @@ pub fn check() -> Result<()> {
 
 /// The cause of an error that the window system told.
 pub fn explain(told: &str) -> String {
-    format!("{told}; {INSTEAD}")
+    // Behind the place in winit's source that tells it.
+    let cause = told.strip_prefix("os error at ").and_then(|told| told.split_once(": "));
+    format!("{}; {INSTEAD}", cause.map_or(told, |(_, cause)| cause))
 }
 
 /// What is missing for a window.
@@ -80,6 +82,11 @@ mod tests {
             library.starts_with("X11 lacks libxkbcommon-x11.so.0; install libxkbcommon-x11-0 "),
             "{library}"
         );
+        assert_eq!(
+            explain("os error at /src/linux/mod.rs:788: No server: gone"),
+            format!("No server: gone; {INSTEAD}")
+        );
+        assert_eq!(explain("no: reason"), format!("no: reason; {INSTEAD}"));
         let wayland = missing(true, true, |name| name != "libwayland-client.so.0").unwrap();
         assert!(wayland.starts_with("Wayland lacks libwayland-client.so.0;"), "{wayland}");
     }

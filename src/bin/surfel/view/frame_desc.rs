@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use ash::vk;
 use surfel::{
     graph::execute::Profile,
     prepare::PreparedScene,
@@ -33,6 +34,11 @@ pub struct Ends {
 }
 
 impl SceneView<'_> {
+    /// Of the picture.
+    pub fn format(&self) -> vk::Format {
+        if self.is_light { vk::Format::R16G16B16A16_SFLOAT } else { vk::Format::R8G8B8A8_SRGB }
+    }
+
     /// The picture is another one after this frame.
     pub fn shows(&self) -> bool {
         self.sample.is_none_or(|ends| ends.last)

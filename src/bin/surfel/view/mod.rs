@@ -3,6 +3,7 @@
 //! picture (`ui`, `panel`, `popups`), and the window itself (`app`, `viewer`, `redraw`, `refine`, `recover`, `input`, `files`, `changes`, `picking`, `path`, `capture`).
 
 mod app;
+mod bars;
 mod capture;
 mod changes;
 mod cuts;
@@ -91,7 +92,7 @@ pub struct ViewArguments {
     #[arg(long, value_name = "BYTES", value_parser = parse::bytes(1 << 20), allow_hyphen_values = true)]
     budget_memory: Option<u64>,
 
-    /// Print a line for each frame of the scene: its size, its time on the device, and how long after its input it was done
+    /// Print a line for each frame of the scene: its size, its time on the device, and how long after its input it was done; and, once it rests, one of the memory in use
     #[arg(long, help_heading = "Device")]
     print_frames: bool,
 

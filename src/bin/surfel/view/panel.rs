@@ -7,8 +7,9 @@ use surfel::{
 };
 
 use super::{
+    bars::bars,
     edits::{Edits, things},
-    history::{History, Times},
+    history::History,
     keys::{Action, Comparing, Cutting, Step},
     loading, values,
     viewer::Viewer,
@@ -270,20 +271,4 @@ fn cost(ui: &mut Ui, history: &History) {
             ui.end_row();
         }
     });
-}
-
-/// Times as bars, the tallest as tall as there is room for; that one.
-fn bars(ui: &mut Ui, size: Vec2, times: &Times) -> f32 {
-    let (response, painter) = ui.allocate_painter(size, egui::Sense::hover());
-    let rect = response.rect;
-    painter.rect_filled(rect, 2.0, Color32::from_gray(40));
-    let most = times.iter().copied().fold(0.0, f32::max);
-    let step = rect.width() / times.len().max(2) as f32;
-    for (number, ms) in times.iter().enumerate() {
-        let x = rect.left() + (number as f32 + 0.5) * step;
-        let top = rect.bottom() - rect.height() * ms / most.max(f32::MIN_POSITIVE);
-        let stroke = egui::Stroke::new(step.max(1.0), Color32::from_rgb(90, 170, 255));
-        painter.line_segment([egui::pos2(x, rect.bottom()), egui::pos2(x, top)], stroke);
-    }
-    most
 }

@@ -106,7 +106,7 @@ impl Picture {
     pub fn target(&mut self, device: &Device, view: &SceneView<'_>) -> Result<Target> {
         let [width, height] = view.settings.size_px;
         let extent = vk::Extent2D { width, height };
-        let format = if view.is_light { vk::Format::R16G16B16A16_SFLOAT } else { vk::Format::R8G8B8A8_SRGB };
+        let format = view.format();
         let kept = self.image.take().filter(|image| (image.extent(), image.format()) == (extent, format));
         // Of several samples, the last one draws to it.
         self.is_drawn &= kept.is_some() && !view.shows();

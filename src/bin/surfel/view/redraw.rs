@@ -21,7 +21,7 @@ use super::{
     show::{ShowDesc, Shown},
     viewer::Viewer,
 };
-use crate::console;
+use crate::{allocator, console};
 
 /// The camera rests once it has not moved for so long.
 const REST: Duration = Duration::from_millis(25);
@@ -54,6 +54,9 @@ impl Viewer {
             self.tidies = (!rests).then(|| now + TIDY);
             if rests {
                 let _ = self.gpu.tidy(self.comparing.is_some());
+                if self.options.prints_frames {
+                    let _ = console::print(&self.memory());
+                }
                 if self.ui.shows_times() && self.splats_drawn.is_none() && !self.is_stale {
                     let _ = self.count_drawn();
                 }
@@ -165,9 +168,20 @@ impl Viewer {
             views.push((which, view(settings)));
             views.extend(other.as_ref().map(|other| (Use::Other, view(other))));
         }
+        // The window goes on with the picture that is there until the pipelines of another are.
+        if self.is_unsure && !views.is_empty() {
+            self.is_unsure = !self.gpu.make_pipelines(&views)?;
+            if self.ui.set_compiling(self.is_unsure) || self.is_unsure {
+                self.window.request_redraw();
+            }
+            if self.is_unsure {
+                views.clear();
+            }
+        }
         let drawn = (!views.is_empty()).then_some(which);
+        let comparing = self.comparing.filter(|_| drawn.is_some() || self.gpu.has_picture(Use::Other));
         let first = drawn.unwrap_or(self.shown);
-        let (pictures, shown) = match self.comparing {
+        let (pictures, shown) = match comparing {
             None | Some(Comparing::Keep) => ([first; 2], Shown::One),
             Some(Comparing::Flicker) => ([Use::Other; 2], Shown::One),
             Some(Comparing::Split) => ([first, Use::Other], Shown::Both(self.split * window_px[0] as f32)),
@@ -239,6 +253,13 @@ impl Viewer {
             }
         }
         Ok(())
+    }
+
+    /// What is in use of memory, as it is printed.
+    fn memory(&self) -> String {
+        let (bytes, pieces) = self.gpu.headless.device().memory_in_use();
+        let own = allocator::live_bytes();
+        format!("at rest: {own} bytes of the program's own, {bytes} of the device's in {pieces} pieces")
     }
 
     fn shows_costs(&self) -> bool {

@@ -35,10 +35,13 @@ pub struct Ui {
     /// A button was pressed over it, and is not released yet.
     is_pressed: bool,
     has_panel: bool,
+    /// Keys are the panel's, by the events that it has been told of, seen by it or not.
+    has_keyboard: bool,
     has_keys: bool,
     messages: VecDeque<(Instant, String)>,
     started: Instant,
     wakes: Option<Instant>,
+    is_compiling: bool,
     /// What is being read.
     pub reading: Option<String>,
     /// What frames have cost.
@@ -57,10 +60,12 @@ impl Ui {
             pointer: Pos2::ZERO,
             is_pressed: false,
             has_panel: false,
+            has_keyboard: false,
             has_keys: false,
             messages: VecDeque::new(),
             started: Instant::now(),
             wakes: None,
+            is_compiling: false,
             reading: Some("reading".to_owned()),
             history: History::default(),
         }
@@ -77,6 +82,11 @@ impl Ui {
         while self.messages.len() > MOST_MESSAGES {
             self.messages.pop_front();
         }
+    }
+
+    /// Pipelines are being made, or not; whether that is new.
+    pub fn set_compiling(&mut self, is_compiling: bool) -> bool {
+        std::mem::replace(&mut self.is_compiling, is_compiling) != is_compiling
     }
 
     /// Shows or hides the panel.
@@ -97,7 +107,8 @@ impl Ui {
 
     /// Whether there is anything of it to see.
     pub fn is_shown(&self) -> bool {
-        self.has_panel || self.has_keys || !self.messages.is_empty() || self.reading.is_some()
+        let is_busy = self.reading.is_some() || self.is_compiling;
+        self.has_panel || self.has_keys || !self.messages.is_empty() || is_busy
     }
 
     /// Whether passes are to be timed.
@@ -154,7 +165,7 @@ impl Ui {
     pub fn key(&mut self, event: &KeyEvent, modifiers: ModifiersState) -> bool {
         let is_command = modifiers.control_key() || modifiers.alt_key() || modifiers.super_key();
         let enters = event.logical_key == Key::Named(NamedKey::Tab);
-        if !self.has_panel || is_command || !(enters || self.context.wants_keyboard_input()) {
+        if !self.has_panel || is_command || !(enters || self.has_keyboard) {
             return false;
         }
         let pressed = event.state == ElementState::Pressed;
@@ -171,6 +182,7 @@ impl Ui {
             Key::Named(NamedKey::ArrowRight) => Some(egui::Key::ArrowRight),
             _ => None,
         };
+        self.has_keyboard = !(pressed && named == Some(egui::Key::Escape));
         if let Some(key) = named {
             let modifiers = egui::Modifiers { shift: modifiers.shift_key(), ..Default::default() };
             self.event(Event::Key { key, physical_key: None, pressed, repeat: event.repeat, modifiers });
@@ -218,11 +230,13 @@ impl Ui {
             if self.has_keys {
                 popups::keys(context);
             }
-            popups::messages(context, self.reading.as_deref(), &texts);
+            let compiling = self.is_compiling.then_some("compiling shaders");
+            popups::messages(context, self.reading.as_deref().or(compiling), &texts);
             if state.shows_difference {
                 popups::color_bar(context);
             }
         });
+        self.has_keyboard = self.context.wants_keyboard_input();
         let delay = output.viewport_output.get(&ViewportId::ROOT).map(|output| output.repaint_delay);
         self.wakes = delay.filter(|delay| *delay < Duration::from_secs(60)).map(|delay| now + delay);
         let primitives = self.context.tessellate(output.shapes, output.pixels_per_point);

@@ -71,6 +71,8 @@ pub struct Viewer {
     pub input_at: Option<Instant>,
     /// What is shown is not the scene, or not from the camera, of now.
     pub is_stale: bool,
+    /// The picture may need pipelines that are not there yet.
+    pub is_unsure: bool,
     /// The picture that is shown.
     pub shown: Use,
     /// How many steps to the picture at rest are drawn.
@@ -137,6 +139,7 @@ impl Viewer {
             was_moving: false,
             input_at: None,
             is_stale: true,
+            is_unsure: true,
             refined: 0,
             is_hasty: false,
             splats_drawn: None,
@@ -160,12 +163,13 @@ impl Viewer {
     pub fn moved(&mut self) {
         self.moved = Some(Instant::now());
         self.input_at = self.moved;
-        self.changed();
+        self.is_stale = true;
+        self.window.request_redraw();
     }
 
-    /// Something that the picture shows has changed.
+    /// Something that the picture shows has changed, other than by a camera that moves on.
     pub fn changed(&mut self) {
-        self.is_stale = true;
+        (self.is_stale, self.is_unsure) = (true, true);
         self.window.request_redraw();
     }
 

@@ -8,4 +8,6 @@ pub enum MissingPipelines {
     Make,
     /// The frame is refused ([`crate::ErrorKind::NotReady`]), before anything is recorded of it.
     Refuse,
+    /// It is made as long as no more than so many were made in all ([`crate::renderer::Renderer::pipelines_made`]); beyond, the frame is refused. A host that asks again and again goes on between.
+    UpTo(u64),
 }

@@ -8,11 +8,15 @@ use surfel::Result;
 
 use super::{
     super::{
+        frame_desc::SceneView,
         memory,
         picture::{Cost, Picture, Use},
     },
     Gpu,
 };
+
+/// So long pipelines are made before events are heard again.
+const TURN: Duration = Duration::from_millis(100);
 
 impl Gpu {
     /// The atlas of letters changes.
@@ -44,6 +48,26 @@ impl Gpu {
     pub fn is_idle(&self) -> Result<bool> {
         let last = self.frames.iter().map(|frame| frame.epoch).max();
         self.headless.queue().is_done(last.unwrap_or(0))
+    }
+
+    /// Whether there is one for a use, drawn before.
+    pub fn has_picture(&self, which: Use) -> bool {
+        self.pictures[which.index()].shot().is_some()
+    }
+
+    /// Makes some of the pipelines that these pictures need and that are not there yet; whether all are there now.
+    ///
+    /// # Errors
+    /// As [`surfel::Renderer::make_pipelines`].
+    pub fn make_pipelines(&self, views: &[(Use, SceneView<'_>)]) -> Result<bool> {
+        for (_, view) in views {
+            let SceneView { scene, camera, settings, .. } = *view;
+            let renderer = &self.headless.renderer;
+            if !renderer.make_pipelines(scene, camera, settings, view.format(), TURN)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// Bytes of device memory in transients of all pictures.

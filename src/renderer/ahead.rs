@@ -1,0 +1,55 @@
+//! Pipelines of a frame, made ahead of it one after the other, so that a host goes on between.
+
+use std::time::{Duration, Instant};
+
+use ash::vk;
+
+use super::{Readbacks, Renderer};
+use crate::{
+    arena::Arena,
+    error::{ErrorKind, Result},
+    frame::{FrameSlot, Target},
+    graph::ImageState,
+    passes::MissingPipelines,
+    prepare::PreparedScene,
+    scene::{Camera, Settings},
+};
+
+impl Renderer {
+    /// Makes pipelines that such a frame needs, for a target of this format, and that are not there yet: at least one, and more until so much time has passed. Whether all are there now.
+    /// Nothing is recorded.
+    ///
+    /// # Errors
+    /// As [`Self::record`].
+    pub fn make_pipelines(
+        &self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+        format: vk::Format,
+        time: Duration,
+    ) -> Result<bool> {
+        let begun = Instant::now();
+        let [width, height] = settings.size_px;
+        let target = Target {
+            image: vk::Image::null(),
+            view: vk::ImageView::null(),
+            format,
+            extent: vk::Extent2D { width, height },
+            initial: ImageState::default(),
+            last: None,
+        };
+        loop {
+            let (arena, mut slot) = (Arena::new(), FrameSlot::new(&self.device));
+            let how = (None, MissingPipelines::UpTo(self.shaders.made() + 1));
+            let (seen, onto) = ((scene, camera, settings), (&target, Readbacks::default()));
+            // SAFETY: the slot is new.
+            match unsafe { self.declare_in(&arena, &mut slot, seen, onto, how, |_, _, _| Ok(())) } {
+                Ok(()) => return Ok(true),
+                Err(error) if !matches!(error.kind(), ErrorKind::NotReady { .. }) => return Err(error),
+                Err(_) if begun.elapsed() >= time => return Ok(false),
+                Err(_) => {}
+            }
+        }
+    }
+}
