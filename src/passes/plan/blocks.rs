@@ -174,11 +174,12 @@ impl Ball {
         let [first, last] = y_px.map(|y| row(y).min(end - 1));
         let within = |px: [f64; 2], side: f64| (px[0] >= 0.0) & (px[1] <= side);
         let is_within = (self.z - self.reach > look.bound.near) & within(x_px, width) & within(y_px, height);
+        let is_too_near = self.z + self.reach < look.bound.near; // NaN is not
         let most_x = (x.0.abs() + x.1).max(y.0.abs() + y.1);
         Image {
             rows: if is_far { first..last + 1 } else { 0..end },
             most_x: if is_far { most_x } else { f64::INFINITY },
-            is_seen: !(self.z + self.reach < look.bound.near) & !(is_far & is_beside),
+            is_seen: !is_too_near & !(is_far & is_beside),
             is_whole: is_far & is_within,
         }
     }
