@@ -14,7 +14,7 @@ use crate::{
     shaders::config::{
         BIND_LIST_PLANES, BIND_PLANES, BIND_READ_PLANES, BIND_READ_TINTS, BIND_TINTS, MOST_GROUPS_IN_ROW,
     },
-    vk::{Descriptor, DescriptorPool, Given},
+    vk::{Descriptor, DescriptorPool},
 };
 
 /// A pipeline of a pass, with the layout that it was made for; a null handle in a frame that is only listed.
@@ -62,7 +62,9 @@ impl Recording<'_, '_> {
     pub fn set_with(&self, place: Place, others: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
         let first = self.bound.partition_point(|(at, _)| at.place < place);
         let own = self.bound[first..].iter().take_while(|(at, _)| at.place == place);
-        let mut given = Given::from_iter(others.iter().copied());
+        let mut given = self.context.arena().growing();
+        given.reserve(own.clone().count() + others.len() + 2);
+        given.extend_from_slice_copy(others);
         if self.planes.count > 0 {
             let binding = match place {
                 Place::Read => Some(BIND_READ_PLANES),

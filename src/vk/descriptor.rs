@@ -2,14 +2,6 @@
 
 use ash::vk;
 
-use crate::inline_vec::InlineVec;
-
-/// The resources that bindings of a set are given, by number.
-pub type Given = InlineVec<(u32, Descriptor), MOST_BINDINGS>;
-
-/// No set has more bindings.
-pub const MOST_BINDINGS: usize = 40;
-
 /// The resource that a binding is given.
 #[derive(Clone, Copy, Debug)]
 pub enum Descriptor {

@@ -11,7 +11,7 @@ use std::{
 use ash::vk;
 
 use super::{
-    descriptor::{Descriptor, Given, Info, MOST_BINDINGS},
+    descriptor::{Descriptor, Info},
     device::Device,
     garbage::Retired,
     owned::Owned,
@@ -20,6 +20,9 @@ use super::{
     stand_ins::StandIns,
 };
 use crate::{error::Result, inline_vec::InlineVec};
+
+/// Bindings that are written by one call.
+const AT_ONCE: usize = 8;
 
 /// One binding of a set: its type and the stages that see it. Its number is its place in the layout.
 #[derive(Clone, Copy, Debug)]
@@ -78,18 +81,6 @@ impl SetLayout {
     pub fn with_stand_ins(mut self, stand_ins: &Arc<StandIns>, integers: &[u32]) -> Self {
         self.stand_ins = Some((Arc::clone(stand_ins), integers.to_vec()));
         self
-    }
-
-    /// What is given, and stand-ins for the bindings that are not.
-    fn complete(&self, given: &[(u32, Descriptor)]) -> Result<Given> {
-        let mut all = Given::from_iter(given.iter().copied());
-        let Some((stand_ins, integers)) = &self.stand_ins else { return Ok(all) };
-        for (number, kind) in (0..).zip(&self.kinds) {
-            if !given.iter().any(|(other, _)| *other == number) {
-                all.push((number, stand_ins.of(*kind, integers.contains(&number))?));
-            }
-        }
-        Ok(all)
     }
 
     /// The raw layout.
@@ -159,19 +150,28 @@ pub struct DescriptorPool {
     sets: RefCell<Sets>,
 }
 
-/// The sets of a pool, with the numbers of their layouts.
+/// The sets of a pool.
 #[derive(Default)]
 struct Sets {
-    given: Vec<(u64, vk::DescriptorSet)>,
-    free: Vec<(u64, vk::DescriptorSet)>,
+    given: Vec<Set>,
+    free: Vec<Set>,
+}
+
+struct Set {
+    raw: vk::DescriptorSet,
+    /// The number of its layout.
+    layout: u64,
+    /// The bindings that were given, a bit each: the others have the layout's stand-ins, if it has any.
+    bindings: u64,
 }
 
 impl Sets {
-    fn take(&mut self, layout: u64) -> Option<vk::DescriptorSet> {
-        let place = self.free.iter().position(|(own, _)| *own == layout)?;
-        let (_, set) = self.free.swap_remove(place);
-        self.given.push((layout, set));
-        Some(set)
+    /// One of this layout, of which the same bindings were given if there is such a one.
+    fn take(&mut self, layout: u64, bindings: u64) -> Option<Set> {
+        let of_layout = |set: &Set| set.layout == layout;
+        let place = self.free.iter().position(|set| of_layout(set) && set.bindings == bindings);
+        let place = place.or_else(|| self.free.iter().position(of_layout))?;
+        Some(self.free.swap_remove(place))
     }
 }
 
@@ -211,12 +211,37 @@ impl DescriptorPool {
     /// # Safety
     /// What is given is of the pool's device, is what its binding takes, and stays alive until commands that use the set have run.
     pub unsafe fn set(&self, layout: &SetLayout, given: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
-        let device = &self.owned.device;
-        let free = self.sets.borrow_mut().take(layout.number);
-        let set = free.map_or_else(|| self.allocate(layout), Ok)?;
-        let all = layout.complete(given)?;
-        let infos: InlineVec<_, MOST_BINDINGS> =
-            all.into_iter().map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
+        let bindings = given.iter().fold(0, |bits, (number, _)| bits | 1 << number);
+        let taken = self.sets.borrow_mut().take(layout.number, bindings);
+        let (raw, has) = match taken {
+            Some(set) => (set.raw, set.bindings),
+            None => (self.allocate(layout)?, u64::MAX),
+        };
+        // Stand-ins stay in a set.
+        let complete = if has == bindings { Ok(()) } else { self.complete(layout, raw, bindings) };
+        let has = if complete.is_ok() { bindings } else { u64::MAX };
+        self.sets.borrow_mut().given.push(Set { raw, layout: layout.number, bindings: has });
+        complete?;
+        given.chunks(AT_ONCE).for_each(|some| self.write(layout, raw, some));
+        Ok(raw)
+    }
+
+    /// Writes the layout's stand-ins, if it has any, into the bindings that are not among these.
+    fn complete(&self, layout: &SetLayout, set: vk::DescriptorSet, bindings: u64) -> Result<()> {
+        let Some((stand_ins, integers)) = &layout.stand_ins else { return Ok(()) };
+        for (number, kind) in (0..).zip(&layout.kinds) {
+            if bindings >> number & 1 == 0 {
+                let stand_in = stand_ins.of(*kind, integers.contains(&number))?;
+                self.write(layout, set, &[(number, stand_in)]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes at most [`AT_ONCE`] bindings of a set that no command buffer uses.
+    fn write(&self, layout: &SetLayout, set: vk::DescriptorSet, some: &[(u32, Descriptor)]) {
+        let infos: InlineVec<_, AT_ONCE> =
+            some.iter().map(|(number, descriptor)| (*number, Info::of(*descriptor))).collect();
         let writes = infos.iter().map(|(number, info)| {
             let kind = layout.kinds[*number as usize];
             let write =
@@ -227,10 +252,9 @@ impl DescriptorPool {
                 Info::Image(info) => write.image_info(info),
             }
         });
-        let writes: InlineVec<_, MOST_BINDINGS> = writes.collect();
-        // SAFETY: the set is new or was taken back, so no command buffer uses it; the rest is this function's contract.
-        unsafe { device.raw().update_descriptor_sets(&writes, &[]) };
-        Ok(set)
+        let writes: InlineVec<_, AT_ONCE> = writes.collect();
+        // SAFETY: the set is new or was taken back, so no command buffer uses it; the rest is the contract of `set`, which alone calls this.
+        unsafe { self.owned.device.raw().update_descriptor_sets(&writes, &[]) };
     }
 
     fn allocate(&self, layout: &SetLayout) -> Result<vk::DescriptorSet> {
@@ -241,7 +265,6 @@ impl DescriptorPool {
         let set = unsafe { device.raw().allocate_descriptor_sets(&info) }
             .of_call("vkAllocateDescriptorSets", &self.name)?[0];
         device.set_name(set, &self.name);
-        self.sets.borrow_mut().given.push((layout.number, set));
         Ok(set)
     }
 

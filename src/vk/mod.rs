@@ -51,7 +51,7 @@ pub use buffer::{Buffer, BufferDesc};
 pub use choose::{DeviceFacts, DeviceKind, Limits, choose};
 pub use commands::CommandPool;
 pub use compute_pipeline::{ComputePipeline, ComputePipelineDesc};
-pub use descriptor::{Descriptor, Given};
+pub use descriptor::Descriptor;
 pub use descriptors::{Binding, DescriptorPool, PoolSizes, SealedPool, SetLayout};
 pub use device::Device;
 pub use executables::{Executable, executables};

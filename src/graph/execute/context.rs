@@ -8,6 +8,7 @@ use super::{
     recorder::Recorder,
 };
 use crate::{
+    arena::Arena,
     error::{Error, ErrorKind, Result},
     vk::Descriptor,
 };
@@ -54,6 +55,11 @@ impl PassContext<'_> {
     /// The device.
     pub fn device(&self) -> &ash::Device {
         self.recorder.device.raw()
+    }
+
+    /// The memory of the frame.
+    pub fn arena(&self) -> &Arena {
+        self.recorder.arena
     }
 
     /// The pass's name.

@@ -99,7 +99,7 @@ impl<'a> PickPlan<'a> {
         let in_cells =
             |object: usize| scene.meshes.iter().any(|mesh| mesh.levels.is_some() && mesh.object == object);
         all.retain(|draw| !in_cells(draw.chunk.object));
-        let seen = arena.list(all.iter().map(|draw| draw.potentially_visible_runs(arena, false)));
+        let seen = arena.list(all.iter().map(|draw| draw.potentially_visible_runs(arena)));
         let listed = ListedBlocks::of(arena, &mut all, seen, 0..1).words().to_vec();
         let draws = all.to_vec();
         let mut meshes: Vec<_> = mesh_draws(Placed::at_home(scene), (&camera, range), &settings).collect();

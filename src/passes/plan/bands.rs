@@ -82,7 +82,8 @@ pub(crate) fn cut_into_bands<'m>(
     if whole.bytes() <= most_bytes {
         return &[];
     }
-    let cut = Cut { arena, draws, seen, whole, settings, limits };
+    let costs = seen.costs(arena, |box_px| whole.bytes_of_one(box_px));
+    let cut = Cut { arena, draws, seen, costs, whole, settings, limits };
     cut.within(most_bytes).unwrap_or_default()
 }
 
@@ -91,6 +92,8 @@ struct Cut<'c, 'm> {
     arena: &'m Arena,
     draws: &'c [Draw<'c>],
     seen: &'c PotentiallyVisibleBlocks<'c>,
+    /// What records and entries take, as [`PotentiallyVisibleBlocks::costs`] has it.
+    costs: &'c [[u64; 2]],
     whole: &'c TilePlan,
     settings: &'c Settings,
     limits: &'c Limits,
@@ -131,23 +134,23 @@ impl<'m> Cut<'_, 'm> {
         self.whole.of_rows_of_it(self.draws, self.seen, rows, self.settings, self.limits)
     }
 
+    /// What records and entries of these rows take.
+    fn cost(&self, rows: Range<u32>) -> u64 {
+        let [end, start] = [rows.end, rows.start].map(|row| self.costs[row as usize]);
+        end[0] - start[1]
+    }
+
     /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many.
     fn plans(&self, most_bytes: u64) -> Option<&'m [TilePlan]> {
         let Range { start: first, end } = self.seen.rows()?;
         let mut plans: ArenaVec<'_, TilePlan> = self.arena.growing();
         let mut next = first;
         while next < end {
-            // A row alone is a band, whatever it takes. Longer ones take no less, so that the longest is found by bisection.
-            let (mut fits, mut too_long) = (next + 1, end + 1);
-            while too_long - fits > 1 {
-                let middle = fits + (too_long - fits) / 2;
-                match self.plan(next..middle) {
-                    Some(plan) if plan.bytes() > most_bytes => too_long = middle,
-                    _ => fits = middle,
-                }
-            }
-            plans.extend(self.plan(next..fits));
-            next = fits;
+            // A row alone is a band, whatever it takes.
+            let more = (next + 2..=end).take_while(|end| self.cost(next..*end) <= most_bytes).count();
+            let band = next..next + 1 + more as u32;
+            next = band.end;
+            plans.extend(self.plan(band));
             if plans.len() > MOST_BANDS {
                 return None;
             }

@@ -47,9 +47,8 @@ const COS_RESERVE: f64 = 0.999_999_5;
 const LENGTH_RESERVE: f64 = 1e-5;
 const ORIGIN_RESERVE: f64 = 1e-6;
 
-/// The farthest that a filter takes a splat's image beyond itself, 8/7 √2 h (`glsl/mark_visible.comp.glsl`), and the margin of its box: less
-/// than 3 pixels.
-const FILTER_RESERVE_PX: f64 = 6.0;
+/// So far beyond a splat's image a device looks for what a filter makes of it, 2 h (`glsl/inc/outside.glsl`) with h up to √2: less than 3 pixels, roundings and all.
+const FILTER_RESERVE_PX: f64 = 3.0;
 
 /// What no box of a block's splats exceeds that are no nearer, and no farther from the middle along x and y in the image plane.
 fn box_at_px(block: &Block, nearest_z: f64, most_x: f64, look: &BlockCullView<'_>) -> f64 {
@@ -59,7 +58,9 @@ fn box_at_px(block: &Block, nearest_z: f64, most_x: f64, look: &BlockCullView<'_
     box_within_px(&bound, largest_radius, most_x.min(look.half_image))
 }
 
-/// What is seen of a block, or of several that lie in a row within its bounds.
+/// What is seen of a block, or of several that lie in a row within its bounds. Whether it is seen is asked once, of all that is known: nobody could guess it, and a wrong guess of a processor
+/// takes as long as half of the rest. Where it is not in line, what it answers is copied in pieces that were not written so, each of which waits for memory.
+#[inline(always)]
 fn look_at(
     first: u32,
     blocks: u32,
@@ -74,14 +75,11 @@ fn look_at(
         return None;
     }
     let ball = Ball::of(block, look);
-    let side = if look.culls { ball.side(block, look) } else { Side::Either };
-    if side == Side::Away {
+    let [faces_away, faces_eye] = ball.faces(block, look);
+    let Image { rows, most_x, is_seen, is_whole } = ball.image(look);
+    if !is_seen | (look.culls & faces_away) || look.planes.iter().any(|plane| ball.is_beyond(*plane, look)) {
         return None;
     }
-    if look.planes.iter().any(|plane| ball.is_beyond(*plane, look)) {
-        return None;
-    }
-    let Image { rows, most_x, is_whole } = ball.image(look)?;
     let of_level = match (look.levels, &block.levels) {
         (Some(view), Some(block)) => view.largest_box_px(block, look.bound.filter_px),
         _ => f64::INFINITY,
@@ -95,16 +93,15 @@ fn look_at(
         },
         box_px: box_at_px(block, ball.z - ball.reach, most_x, look).min(of_level),
         rows,
-        all_seen: is_whole && look.planes.is_empty() && (!look.culls || side == Side::TowardEye),
+        all_seen: is_whole & look.planes.is_empty() & (!look.culls | faces_eye),
         all_of_level: of_levels == OfBlock::All,
     })
 }
 
 /// A block from the eye, in the view's unit.
 struct Ball {
-    /// Its middle, in the local space's axes, and how far that is from the eye.
+    /// Its middle from the eye, in the local space's axes.
     middle: DVec3,
-    distance: f64,
     /// How far from there centers are.
     radius: f64,
     /// How far anything of its splats is.
@@ -121,45 +118,43 @@ struct Image {
     rows: Range<u32>,
     /// No farther from the middle, along x and y in the image plane.
     most_x: f64,
+    /// Some of it may be within the image.
+    is_seen: bool,
     /// None of it is beside the image.
     is_whole: bool,
 }
 
 impl Ball {
+    #[inline(always)]
     fn of(block: &Block, look: &BlockCullView<'_>) -> Self {
         let scale = look.view.view_from_local_scale;
         let middle = block.center * scale + look.view.origin_from_eye;
-        let distance = middle.length();
-        // Of any splat: its block's middle may be the chunk's origin, and the eye.
+        // Of any splat: its block's middle may be the chunk's origin, and the eye. No less than its distance.
+        let distance = middle.x.abs() + middle.y.abs() + middle.z.abs();
         let reserve = LENGTH_RESERVE * distance + ORIGIN_RESERVE * look.by_origin;
         let radius = block.radius * scale + reserve;
         let [x, y, z] = (look.view.rotation * middle).into();
         // A splat's points are within its radius, its image within that of twice as much.
-        Self { middle, distance, radius, reach: radius + 2.0 * block.largest_radius * scale, x, y, z }
+        Self { middle, radius, reach: radius + 2.0 * block.largest_radius * scale, x, y, z }
     }
 
     /// Whether all that is drawn of its splats is on the side of a plane that is cut off: no farther from a splat than it is large and a filter, which is the larger
     /// the deeper, reaches.
     fn is_beyond(&self, plane: DVec4, look: &BlockCullView<'_>) -> bool {
         let depth = if look.bound.is_orthographic { 1.0 } else { self.z + self.reach };
-        let of_filter = FILTER_RESERVE_PX / look.bound.focal_px * depth.max(0.0);
+        let of_filter = 2.0 * FILTER_RESERVE_PX / look.bound.focal_px * depth.max(0.0);
         let inside = plane.truncate().dot(DVec3::new(self.x, self.y, self.z)) + plane.w;
         let reserve = LENGTH_RESERVE * (plane.w.abs() + self.z.abs());
         inside < -(self.reach + of_filter + reserve)
     }
 
-    /// `None` where nothing of it may be seen.
-    fn image(&self, look: &BlockCullView<'_>) -> Option<Image> {
+    /// Where it may be seen.
+    #[inline(always)]
+    fn image(&self, look: &BlockCullView<'_>) -> Image {
         let ([width, height], [axis_x_px, axis_y_px]) = (look.bound.size_px, look.bound.middle_px);
-        let all = 0..(height as u32).div_ceil(BAND_ROW);
-        if self.z + self.reach < look.bound.near {
-            return None;
-        }
+        let end = (height as u32).div_ceil(BAND_ROW);
         let is_orthographic = look.bound.is_orthographic;
-        let is_far = is_orthographic || self.reach <= 0.25 * self.z; // NaN is not
-        if !is_far {
-            return Some(Image { rows: all, most_x: f64::INFINITY, is_whole: false });
-        }
+        let is_far = is_orthographic | (self.reach <= 0.25 * self.z); // NaN is not
         // A point d from the middle is seen (d_x − c d_z) / (z + d_z) from the middle's image c, |d| √(1 + c²) / (z − |d|) at most.
         let (per_z, away_per_z) = match is_orthographic {
             true => (1.0, self.reach),
@@ -174,51 +169,42 @@ impl Ball {
             [middle_px - away_px - FILTER_RESERVE_PX, middle_px + away_px + FILTER_RESERVE_PX]
         };
         let (x_px, y_px) = (in_px(x, axis_x_px), in_px(y, axis_y_px));
-        if x_px[1] < 0.0 || x_px[0] > width || y_px[1] < 0.0 || y_px[0] > height {
-            return None;
-        }
+        let is_beside = (x_px[1] < 0.0) | (x_px[0] > width) | (y_px[1] < 0.0) | (y_px[0] > height);
         let row = |y: f64| (y.clamp(0.0, height) as u32) / BAND_ROW;
-        let first = row(y_px[0]).min(all.end - 1);
-        let rows = first..(row(y_px[1]) + 1).min(all.end);
-        let within = |px: [f64; 2], side: f64| px[0] >= 0.0 && px[1] <= side;
-        let is_whole = self.z - self.reach > look.bound.near && within(x_px, width) && within(y_px, height);
-        Some(Image { rows, most_x: (x.0.abs() + x.1).max(y.0.abs() + y.1), is_whole })
+        let [first, last] = y_px.map(|y| row(y).min(end - 1));
+        let within = |px: [f64; 2], side: f64| (px[0] >= 0.0) & (px[1] <= side);
+        let is_within = (self.z - self.reach > look.bound.near) & within(x_px, width) & within(y_px, height);
+        let is_too_near = self.z + self.reach < look.bound.near; // NaN is not
+        let most_x = (x.0.abs() + x.1).max(y.0.abs() + y.1);
+        Image {
+            rows: if is_far { first..last + 1 } else { 0..end },
+            most_x: if is_far { most_x } else { f64::INFINITY },
+            is_seen: !is_too_near & !(is_far & is_beside),
+            is_whole: is_far & is_within,
+        }
     }
 
-    /// Which side all splats show the eye. Where a normal and the ray to its center have an angle above 90° it is the face. From outside a ball is seen within
+    /// Whether all splats face away, and whether all face the eye. Where a normal and the ray to its center have an angle above 90° it is the face. From outside a ball is seen within
     /// the arc sine α of its radius over its distance; angles of directions add up at most: with the spread σ of normals about an axis, which has an angle θ with
     /// the ray to the middle, all angles are above 90° where θ − α − σ is, cos θ < −sin(α + σ), and below where θ + α + σ is, cos θ > sin(α + σ); if α + σ
     /// itself is less.
-    fn side(&self, block: &Block, look: &BlockCullView<'_>) -> Side {
-        let (middle, distance, radius) = match look.bound.is_orthographic {
+    #[inline(always)]
+    fn faces(&self, block: &Block, look: &BlockCullView<'_>) -> [bool; 2] {
+        let (middle, squared, radius) = match look.bound.is_orthographic {
             true => (look.view.rotation.row(2), 1.0, 0.0),
-            false => (self.middle, self.distance, self.radius),
+            false => (self.middle, self.middle.length_squared(), self.radius),
         };
-        let is_outside = radius < distance; // NaN is not
-        if !is_outside {
-            return Side::Either;
-        }
+        let is_outside = radius * radius < squared; // NaN is not
         let [sin, cos] = block.spread_sin_cos;
         let (sin, cos) =
             (sin * COS_RESERVE + cos * ANGLE_RESERVE_RAD, cos * COS_RESERVE - sin * ANGLE_RESERVE_RAD);
         // Times the distance, as the sum of two angles has them.
-        let tangent = (distance * distance - radius * radius).sqrt();
+        let tangent = (squared - radius * radius).sqrt();
         let (sin_of_sum, cos_of_sum) = (radius * cos + tangent * sin, tangent * cos - radius * sin);
         let along = block.axis.dot(middle);
-        match cos_of_sum > 0.0 {
-            true if along > sin_of_sum => Side::Away,
-            true if along < -sin_of_sum => Side::TowardEye,
-            _ => Side::Either,
-        }
+        let is_known = is_outside & (cos_of_sum > 0.0);
+        [is_known & (along > sin_of_sum), is_known & (along < -sin_of_sum)]
     }
-}
-
-/// Which side splats show the eye.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Away,
-    TowardEye,
-    Either,
 }
 
 #[cfg(test)]

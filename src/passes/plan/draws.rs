@@ -9,7 +9,10 @@ use crate::passes::{
         variant::{Constants, culls, splat_constants, sums_under},
     },
     plan::{
-        blocks::{BlockCullView, walk::potentially_visible_runs},
+        blocks::{
+            BlockCullView,
+            walk::{closer_runs, potentially_visible_runs},
+        },
         frame_constants::{focal_in_view_px, frame_constants, near_in_view},
         in_view::{center_and_half, in_view, nearest_z, wholly_in_view},
         levels::{LevelView, OfBlock},
@@ -72,13 +75,19 @@ impl Draw<'_> {
         })
     }
 
-    /// The blocks in which there may be something to see; `closely`: what is seen as a whole is looked at by its parts, too, whose rows are fewer.
-    pub(crate) fn potentially_visible_runs<'m>(
+    /// The blocks in which there may be something to see.
+    pub(crate) fn potentially_visible_runs<'m>(&self, arena: &'m Arena) -> &'m [PotentiallyVisibleRun] {
+        potentially_visible_runs(arena, self.chunk, &self.look())
+    }
+
+    /// The same, looked at more closely, above all what reaches over some rows.
+    pub(crate) fn closer_runs<'m>(
         &self,
         arena: &'m Arena,
-        closely: bool,
+        runs: &[PotentiallyVisibleRun],
+        cuts: &[u32],
     ) -> &'m [PotentiallyVisibleRun] {
-        potentially_visible_runs(arena, self.chunk, &self.look(), closely)
+        closer_runs(arena, self.chunk, &self.look(), runs, cuts)
     }
 
     /// How its blocks are looked at.

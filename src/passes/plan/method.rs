@@ -70,7 +70,7 @@ pub(crate) fn primitives<'a>(
         return SplatMethod::default();
     }
     let rows = rows_of_image(settings);
-    let seen = arena.list(splats.iter().map(|draw| draw.potentially_visible_runs(arena, false)));
+    let seen = arena.list(splats.iter().map(|draw| draw.potentially_visible_runs(arena)));
     SplatMethod::Primitives {
         visible: Some(ListedBlocks::of(arena, splats, seen, rows)),
         culls_hidden: culling::primitives_cull_hidden(polygons, settings),
@@ -88,14 +88,14 @@ fn bands<'a>(
 ) -> Option<&'a [Band<'a>]> {
     let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
     let rows = rows_of_image(settings);
-    let seen = |closely| {
-        let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_runs(arena, closely)));
+    let seen = || {
+        let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_runs(arena)));
         PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
     let (seen, whole) = if splats.iter().any(|draw| draw.levels.is_some()) {
         // Of levels of detail there may be many more splats than there is room for; those that may be drawn are few.
-        let seen = seen(true);
+        let seen = seen();
         if !culling::list_has_room(seen.block_count(), limits) {
             return None;
         }
@@ -118,14 +118,22 @@ fn bands<'a>(
         let tightened = |seen: &PotentiallyVisibleBlocks<'_>| {
             whole.clone().tightened_to_blocks(splats, seen, settings, limits)
         };
-        // About half of a closed surface is seen.
-        let rough =
-            (whole.bytes() / 2 <= most_bytes).then(|| seen(false)).map(|seen| (seen, tightened(&seen)));
-        rough.filter(|(_, tight)| tight.bytes() <= most_bytes).unwrap_or_else(|| {
-            // Bands are cut by rows.
-            let seen = seen(true);
-            (seen, tightened(&seen))
-        })
+        let rough = seen();
+        let tight = tightened(&rough);
+        if tight.bytes() <= most_bytes {
+            (rough, tight)
+        } else {
+            // Where bands may end rows matter.
+            let cut = cut_into_bands(arena, splats, &rough, &tight, settings, limits);
+            let ends = match cut.is_empty() {
+                true => arena.list(rows.clone()),
+                false => arena.list(cut.iter().map(|band| band.rows.end)),
+            };
+            let runs = splats.iter().zip(rough.chunks);
+            let runs = arena.list(runs.map(|(draw, runs)| draw.closer_runs(arena, runs, ends)));
+            let close = PotentiallyVisibleBlocks::new(arena, runs, rows.end);
+            (close, tightened(&close))
+        }
     };
     if left_to_others(&whole) {
         return None;

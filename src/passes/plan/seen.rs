@@ -46,13 +46,16 @@ pub struct PotentiallyVisibleBlocks<'a> {
     before: &'a [[u32; 2]],
 }
 
-/// Boxes are told apart by so many pixels.
-const SIZE_STEP_PX: f64 = 0.25;
+/// What is not told apart of boxes: within a whole pixel ([`crate::math::size::pixels_along`]) they are in as many tiles.
+fn size_of(run: &PotentiallyVisibleRun) -> f64 {
+    // Not `floor`, which is a call where a processor has no instruction for it.
+    let whole_px = (run.box_px - 1.5) as u32;
+    if whole_px < u32::MAX { f64::from(whole_px) + 2.499 } else { f64::INFINITY }
+}
 
 impl<'a> PotentiallyVisibleBlocks<'a> {
     /// Those of some runs, in an image with so many rows of tiles.
     pub fn new(arena: &'a Arena, chunks: &'a [&'a [PotentiallyVisibleRun]], rows: u32) -> Self {
-        let size_of = |run: &PotentiallyVisibleRun| (run.box_px / SIZE_STEP_PX).ceil() * SIZE_STEP_PX;
         let mut sizes_px = arena.growing::<f64>();
         let place_of =
             |sizes_px: &[f64], size: f64| sizes_px.binary_search_by(|other| other.total_cmp(&size));
@@ -87,6 +90,18 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
             before[place][1] += ended;
         }
         Self { chunks, sizes_px: sizes_px.into_bump_slice(), before: before.into_bump_slice() }
+    }
+
+    /// Of each row, and of the end, what all splats cost of blocks that begin before it, and of such that end before it, by what one costs with a box of so many pixels.
+    pub fn costs<'m>(&self, arena: &'m Arena, of_one: impl Fn(f64) -> u64) -> &'m [[u64; 2]] {
+        let of_sizes = arena.list(self.sizes_px.iter().map(|px| of_one(*px)));
+        let sum = |of_row: &[[u32; 2]]| {
+            let of_size =
+                |[begun, ended]: [u32; 2], cost: u64| [begun, ended].map(|count| u64::from(count) * cost);
+            let costs = of_row.iter().zip(of_sizes).map(|(counts, cost)| of_size(*counts, *cost));
+            costs.fold([0; 2], |[a, b], [begun, ended]| [a + begun, b + ended])
+        };
+        arena.list(self.before.chunks(self.sizes_px.len().max(1)).map(sum))
     }
 
     /// How many splats have boxes up to how many pixels, of the blocks that may touch these rows.

@@ -58,6 +58,11 @@ fn one_of_few(number: u64) -> u64 {
     number >> below << below
 }
 
+/// Four quarters and a rect; an index, a bit, and a 32nd of a count.
+fn bytes_of_records(records: u64) -> u64 {
+    records * (4 * RECORD_BYTES + 4) + records * 4 + records / 4
+}
+
 /// How splats are drawn by tiles.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TilePlan {
@@ -110,12 +115,16 @@ pub struct TilePlan {
 impl TilePlan {
     /// Bytes of records and lists, and of the lists of splats that may be seen which they are made from.
     pub fn bytes(&self) -> u64 {
-        let records = self.record_room;
-        // Four quarters and a rect; an index, a bit, and a 32nd of a count.
-        let of_records = records * (4 * RECORD_BYTES + 4) + records * 4 + records / 4;
+        let of_records = bytes_of_records(self.record_room);
         // Starts, tiles with splats, runs, overflow tiles.
         let of_bins = u64::from(self.bin_count()) * 4 + u64::from(self.tile_count) * 16;
         of_records + self.clip_bytes() + self.entry_room * 4 + self.count_bytes() + of_bins
+    }
+
+    /// Bytes of one splat's record and entries, whose box has so many pixels.
+    pub(crate) fn bytes_of_one(&self, box_px: f64) -> u64 {
+        let of_clips = if self.clips { u64::from(CLIP_VECTORS) * RECORD_BYTES } else { 0 };
+        bytes_of_records(1) + of_clips + 4 * tiles_of(box_px, self.invocations).min(self.most_tiles.into())
     }
 
     /// Bytes of what each segment counts in bins.

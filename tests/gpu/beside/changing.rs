@@ -127,14 +127,15 @@ fn memory_after(frames: usize) {
         most[half] = most[half].max(beside.device.memory_in_use().0);
     }
     println!("at most {most:?} bytes in the first and the second half of {frames} frames");
-    assert!(most[1] <= most[0], "{most:?}");
+    // A frame may have lists a little longer than any before.
+    assert!(most[1] <= most[0] + most[0] / 32, "{most:?}");
     drop(balls);
     beside.end();
 }
 
 #[test]
 fn memory_does_not_grow_as_scenes_come_and_go() {
-    memory_after(200);
+    memory_after(400);
 }
 
 /// Minutes: `cargo test --release --test gpu ten_thousand -- --ignored --nocapture`.

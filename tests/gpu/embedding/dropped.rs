@@ -12,6 +12,16 @@ use crate::common::{host::Host, scenes};
 /// commands are under way, whether the device is done with them or not.
 #[test]
 fn what_frames_in_flight_use_stays_until_the_last_of_them_is_done() {
+    dropped(true);
+}
+
+/// The second is recorded then, and submitted when the first is done.
+#[test]
+fn what_recorded_commands_use_stays_until_they_are_submitted_and_done() {
+    dropped(false);
+}
+
+fn dropped(all_submitted: bool) {
     let host = Host::new(POINTS);
     let ours = host.lend(host.device.clone());
     let settings = settings();
@@ -23,12 +33,17 @@ fn what_frames_in_flight_use_stays_until_the_last_of_them_is_done() {
         frame.begin(&host);
         record(&renderer, frame, &prepared, number, &settings);
         frame.copy_target(&host, settings.size_px);
-        frame.submit(&host, &ours);
+        if all_submitted || number == 0 {
+            frame.submit(&host, &ours);
+        }
     }
     let of_scene = prepared.bytes();
     drop((prepared, renderer));
     let [first, last] = &mut frames;
     first.wait(&host, &ours);
+    if !all_submitted {
+        last.submit(&host, &ours);
+    }
     assert_eq!(host.said(), [] as [String; 0]);
     let (held, _) = ours.memory_in_use();
     last.wait(&host, &ours);

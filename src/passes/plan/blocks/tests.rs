@@ -177,7 +177,11 @@ fn runs_leave_out_no_more_than_their_blocks() {
                     let arena = Arena::new();
                     let (chunk, look) = (draw.chunk, draw.look());
                     for closely in [false, true] {
-                        let runs = draw.potentially_visible_runs(&arena, closely);
+                        let mut runs = draw.potentially_visible_runs(&arena);
+                        if closely {
+                            let all_rows = arena.list(0..SIZE_PX[1].div_ceil(BAND_ROW));
+                            runs = draw.closer_runs(&arena, runs, all_rows);
+                        }
                         most_runs = most_runs.max(runs.len());
                         let of_runs: u32 = runs.iter().map(|run| run.count).sum();
                         assert!(of_runs <= chunk.count && runs.is_sorted_by_key(|run| run.first));

@@ -1,5 +1,7 @@
 //! From a chunk's coarsest bounds down to its blocks, where that tells more: no more looks than a frame has time for, however many blocks there are.
 
+use std::ops::Range;
+
 use super::{BlockCullView, look_at};
 use crate::{
     arena::{Arena, ArenaVec},
@@ -7,9 +9,9 @@ use crate::{
     prepare::{Block, CHILDREN, Chunk},
 };
 
-/// Looks at bounds of a chunk, beside those on top; and where memory for lists is short, so that it matters how many splats may be in which rows.
+/// Looks at bounds of a chunk, beside those on top; and how many more where memory for lists is short, so that it matters how many splats may be in which rows.
 const MOST_LOOKS: usize = 256;
-const MOST_CLOSE_LOOKS: usize = 16_384;
+const MOST_CLOSER_LOOKS: usize = 4096;
 
 /// The blocks of a chunk some of whose splats may be seen, in their order. What is left out here, every stage that sets splats up
 /// would leave out: what faces away, what is nearer than the near plane, and what is beside the image, by the bounds of
@@ -20,13 +22,12 @@ const MOST_CLOSE_LOOKS: usize = 16_384;
 /// no less where p_z ≥ 4 R; and it is, where the whole ball's reach is within a quarter of its depth. Under parallel rays all of that is as
 /// large as it is.
 ///
-/// Runs of blocks are looked at from the top of their tree: of one that is seen as a whole nothing below is, unless `closely`, for fewer rows. So what is looked at by
-/// itself is at silhouettes, at borders of the image, and near; where that is more than so many looks, the rest is left to the device.
+/// Runs of blocks are looked at from the top of their tree: of one that is seen as a whole nothing below is. So what is looked at by itself is at silhouettes, at borders of the
+/// image, and near; where that is more than so many looks, the rest is left to the device.
 pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
     arena: &'m Arena,
     chunk: &Chunk,
     look: &BlockCullView<'_>,
-    closely: bool,
 ) -> &'m [PotentiallyVisibleRun] {
     let blocks = &chunk.blocks;
     // Of a chunk that a host writes, the blocks have the same bounds: one is looked at for all.
@@ -34,67 +35,83 @@ pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
         let all = Block { count: chunk.count, levels: None, ..*first };
         return arena.list(look_at(0, blocks.len() as u32, &all, look));
     }
-    let levels = &chunk.tree.levels;
-    let add = |front: &mut ArenaVec<'m, (PotentiallyVisibleRun, Closer)>,
-               [number, each]: [usize; 2],
-               nodes: &[Block]| {
-        let firsts = (number * each..).step_by(each);
-        let runs = firsts.zip(nodes).filter_map(|(first, node)| {
-            look_at(first as u32, each.min(blocks.len() - first) as u32, node, look)
-        });
-        front.extend(runs.map(|run| {
-            let closer = match run.all_seen {
-                false => Closer::First,
-                true if closely => Closer::Perhaps,
-                true => Closer::No,
-            };
-            (run, closer)
-        }));
-    };
-    let mut each = CHILDREN.pow(levels.len() as u32);
-    let mut front = arena.growing();
-    add(&mut front, [0, each], levels.last().unwrap_or(blocks));
-    let mut left = if closely { MOST_CLOSE_LOOKS } else { MOST_LOOKS };
-    for level in levels.iter().rev().skip(1).chain([blocks]).take(levels.len()) {
-        let count = |of: Closer| front.iter().filter(|(_, closer)| *closer == of).count();
-        // Where there are too many, evenly some of them.
-        let mut shares = [Closer::First, Closer::Perhaps].map(|of| {
-            let wanted = count(of);
-            let chosen = wanted.min(left / CHILDREN);
-            left -= chosen * CHILDREN;
-            Share { wanted, chosen, met: 0 }
-        });
-        if shares.iter().all(|share| share.chosen == 0) {
-            break;
-        }
-        each /= CHILDREN;
-        let mut closer = arena.growing();
-        for (run, of) in front {
-            let is_chosen = match of {
-                Closer::First => shares[0].next(),
-                Closer::Perhaps => shares[1].next(),
-                Closer::No => false,
-            };
-            if is_chosen {
-                let first = run.first as usize / each;
-                add(&mut closer, [first, each], &level[first..level.len().min(first + CHILDREN)]);
-            } else {
-                closer.push((run, Closer::No));
-            }
-        }
-        front = closer;
-    }
-    arena.list(front.into_iter().map(|(run, _)| run))
+    let mut top = arena.growing();
+    look_at_nodes(&mut top, chunk, (chunk.tree.levels.len(), 0..usize::MAX), look);
+    looked_into(arena, chunk, look, top, MOST_LOOKS, |run| !run.all_seen)
 }
 
-/// Whether what is below a run is looked at.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Closer {
-    /// Some of it may not be seen.
-    First,
-    /// All of it is seen; its parts are in fewer rows, and have smaller boxes.
-    Perhaps,
-    No,
+/// These runs, in place of which there are their parts where they are not seen as wholes, or reach over one of these rows: a band may end there, and all other runs are in one band.
+pub(in crate::passes::plan) fn closer_runs<'m>(
+    arena: &'m Arena,
+    chunk: &Chunk,
+    look: &BlockCullView<'_>,
+    runs: &[PotentiallyVisibleRun],
+    cuts: &[u32],
+) -> &'m [PotentiallyVisibleRun] {
+    if chunk.is_dynamic() {
+        return arena.list(runs.iter().cloned());
+    }
+    let is_cut =
+        |run: &PotentiallyVisibleRun| cuts.iter().any(|row| run.rows.start < *row && *row < run.rows.end);
+    let mut front = arena.growing();
+    front.extend(runs.iter().cloned());
+    looked_into(arena, chunk, look, front, MOST_CLOSER_LOOKS, |run| !run.all_seen || is_cut(run))
+}
+
+/// Looks at some nodes of a level of a chunk's tree, of which 0 are the blocks.
+fn look_at_nodes(
+    runs: &mut ArenaVec<'_, PotentiallyVisibleRun>,
+    chunk: &Chunk,
+    (level, range): (usize, Range<usize>),
+    look: &BlockCullView<'_>,
+) {
+    let nodes = level.checked_sub(1).map_or(&chunk.blocks, |level| &chunk.tree.levels[level]);
+    let each = CHILDREN.pow(level as u32);
+    let range = range.start..range.end.min(nodes.len());
+    runs.reserve(range.len());
+    let mut first = range.start * each;
+    for node in &nodes[range] {
+        let blocks = each.min(chunk.blocks.len() - first);
+        if let Some(run) = look_at(first as u32, blocks as u32, node, look) {
+            runs.push(run);
+        }
+        first += each;
+    }
+}
+
+/// Runs, in place of which there are those below them where that is wanted, from the top down: of as many as so many looks are enough for, evenly some of them.
+fn looked_into<'m>(
+    arena: &'m Arena,
+    chunk: &Chunk,
+    look: &BlockCullView<'_>,
+    mut front: ArenaVec<'m, PotentiallyVisibleRun>,
+    mut looks: usize,
+    wants: impl Fn(&PotentiallyVisibleRun) -> bool,
+) -> &'m [PotentiallyVisibleRun] {
+    for level in (0..chunk.tree.levels.len()).rev() {
+        let each = CHILDREN.pow(level as u32);
+        // The last run of a level may be short, and is then that of a lower one, too.
+        let is_wanted = |run: &PotentiallyVisibleRun| {
+            (each + 1..=each * CHILDREN).contains(&(run.blocks as usize)) && wants(run)
+        };
+        let wanted = front.iter().filter(|run| is_wanted(run)).count();
+        let chosen = wanted.min(looks / CHILDREN);
+        if chosen == 0 {
+            continue;
+        }
+        looks -= chosen * CHILDREN;
+        let (mut share, mut below) = (Share { wanted, chosen, met: 0 }, arena.growing());
+        for run in front {
+            if is_wanted(&run) && share.next() {
+                let first = run.first as usize / each;
+                look_at_nodes(&mut below, chunk, (level, first..first + CHILDREN), look);
+            } else {
+                below.push(run);
+            }
+        }
+        front = below;
+    }
+    front.into_bump_slice()
 }
 
 /// Some of those that want something, evenly chosen.
