@@ -19,7 +19,7 @@ use crate::geometry::neighbors::Tree;
 /// Every so manieth point is in a coarser tree, in the order of the finer one, in which neighbors lie near each other.
 const STRIDES: [usize; 6] = [4, 16, 64, 256, 1024, 4096];
 
-/// Thickness over width up to which planes of patches are flat enough, and up to which the flattest are a surface. Points in a volume have 0.9.
+/// Thickness over width up to which planes of patches are flat enough, and up to which the flattest are a surface. Points in a volume have 0.7 to 0.9.
 const FLAT_ENOUGH: f64 = 0.4;
 const THICKEST: f64 = 0.6;
 
@@ -82,4 +82,36 @@ pub(super) fn nearest(tree: &Tree, place: DVec3, count: usize) -> Vec<DVec3> {
     tree.nearest_places_to(place, &mut found);
     let near = found.iter().filter(|(_, at)| *at != u32::MAX);
     near.map(|&(_, at)| tree.points()[at as usize].position - place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{geometry::neighbors::Point, math::random::SplitMix};
+
+    fn tree(count: u32, mut place: impl FnMut(DVec3) -> DVec3) -> Tree {
+        let mut random = SplitMix(9);
+        let mut in_ball = || loop {
+            let p = DVec3::from_array([0; 3].map(|_| 2.0 * random.unit() - 1.0));
+            if (0.01..1.0).contains(&p.length()) {
+                return p;
+            }
+        };
+        Tree::new((0..count).map(|number| Point { position: place(in_ball()), number }).collect())
+    }
+
+    /// A shell so thick that no coarseness makes it flat, unlike what has no surface at all.
+    #[test]
+    fn where_nothing_is_flat_the_flattest_is_taken_and_a_volume_has_no_normals() {
+        let shell = tree(4000, |p| p.normalize() * (0.75 + 0.5 * p.length().powi(3)));
+        let normals = normals(&shell).expect("a surface");
+        let angles =
+            shell.points().iter().zip(normals).map(|(point, normal)| {
+                point.position.normalize().dot(normal).abs().min(1.0).acos().to_degrees()
+            });
+        let mean = angles.sum::<f64>() / 4000.0;
+        assert!(mean < 8.0, "{mean}°");
+        assert!(super::normals(&tree(4000, |p| p)).is_none());
+        assert!(super::normals(&tree(4000, |p| p.normalize())).is_none(), "clean");
+    }
 }
