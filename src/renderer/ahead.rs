@@ -16,8 +16,8 @@ use crate::{
 };
 
 impl Renderer {
-    /// Makes pipelines that such a frame needs, for a target of this format, and that are not there yet: at least one, and more until so much time has passed. Whether all are there now.
-    /// Nothing is recorded.
+    /// Makes pipelines that such a frame needs, for a target of this format, and that are not there yet: one, and more until so much time has passed. Whether all are there then.
+    /// Nothing is recorded. A frame that is read back, or the sum of several samples, needs more.
     ///
     /// # Errors
     /// As [`Self::record`].
@@ -39,11 +39,12 @@ impl Renderer {
             initial: ImageState::default(),
             last: None,
         };
+        let mut slot = FrameSlot::new(&self.device);
         loop {
-            let (arena, mut slot) = (Arena::new(), FrameSlot::new(&self.device));
+            let arena = Arena::new();
             let how = (None, MissingPipelines::UpTo(self.shaders.made() + 1));
             let (seen, onto) = ((scene, camera, settings), (&target, Readbacks::default()));
-            // SAFETY: the slot is new.
+            // SAFETY: nothing of the slot was ever recorded.
             match unsafe { self.declare_in(&arena, &mut slot, seen, onto, how, |_, _, _| Ok(())) } {
                 Ok(()) => return Ok(true),
                 Err(error) if !matches!(error.kind(), ErrorKind::NotReady { .. }) => return Err(error),

@@ -15,6 +15,7 @@ use super::{
     device::Device,
     garbage::Retired,
     owned::Owned,
+    pool_sizes::PoolSizes,
     result::VkResultExt,
     sampler::Sampler,
     stand_ins::StandIns,
@@ -23,6 +24,9 @@ use crate::{error::Result, inline_vec::InlineVec};
 
 /// Bindings that are written by one call.
 const AT_ONCE: usize = 8;
+
+/// No layout has more bindings: sets have a bit for each.
+const MOST_BINDINGS: usize = u64::BITS as usize;
 
 /// One binding of a set: its type and the stages that see it. Its number is its place in the layout.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +54,11 @@ impl SetLayout {
     ///
     /// # Errors
     /// Whatever the driver answers.
+    ///
+    /// # Panics
+    /// With more than 64 bindings.
     pub fn new(device: &Device, name: &str, bindings: &[Binding]) -> Result<Self> {
+        assert!(bindings.len() <= MOST_BINDINGS, "{name}: {} bindings", bindings.len());
         let filtered = |binding: &Binding| binding.kind == vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
         let sampler = bindings.iter().any(filtered).then(|| Sampler::new(device, name)).transpose()?;
         let samplers = [sampler.as_ref().map_or(vk::Sampler::null(), Sampler::raw)];
@@ -89,58 +97,6 @@ impl SetLayout {
     }
 }
 
-/// Room in a pool.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PoolSizes {
-    /// Sets.
-    pub sets: u32,
-    /// Storage buffers in all sets.
-    pub buffers: u32,
-    /// Uniform buffers.
-    pub uniform_buffers: u32,
-    /// Buffers read by texels.
-    pub texel_buffers: u32,
-    /// Sampled images.
-    pub images: u32,
-    /// Sampled images with a sampler.
-    pub filtered_images: u32,
-    /// Storage images.
-    pub storage_images: u32,
-}
-
-impl PoolSizes {
-    /// The descriptors of each kind.
-    fn kinds(&self) -> [(vk::DescriptorType, u32); 6] {
-        [
-            (vk::DescriptorType::STORAGE_BUFFER, self.buffers),
-            (vk::DescriptorType::UNIFORM_BUFFER, self.uniform_buffers),
-            (vk::DescriptorType::UNIFORM_TEXEL_BUFFER, self.texel_buffers),
-            (vk::DescriptorType::SAMPLED_IMAGE, self.images),
-            (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, self.filtered_images),
-            (vk::DescriptorType::STORAGE_IMAGE, self.storage_images),
-        ]
-    }
-
-    /// Room for both.
-    pub fn plus(&self, other: &Self) -> Self {
-        Self {
-            sets: self.sets + other.sets,
-            buffers: self.buffers + other.buffers,
-            uniform_buffers: self.uniform_buffers + other.uniform_buffers,
-            texel_buffers: self.texel_buffers + other.texel_buffers,
-            images: self.images + other.images,
-            filtered_images: self.filtered_images + other.filtered_images,
-            storage_images: self.storage_images + other.storage_images,
-        }
-    }
-
-    /// Whether a pool of this room has room for that.
-    pub fn holds(&self, wanted: &Self) -> bool {
-        let mut kinds = wanted.kinds().into_iter().zip(self.kinds());
-        wanted.sets <= self.sets && kinds.all(|((_, wanted), (_, own))| wanted <= own)
-    }
-}
-
 /// A pool of sets that live and die together. Sets that are taken back are given out again where the same are wanted: a frame like the
 /// one before makes none, and none gets a name anew, each of which lavapipe (Mesa 22.3) keeps until the end.
 pub struct DescriptorPool {
@@ -161,15 +117,15 @@ struct Set {
     raw: vk::DescriptorSet,
     /// The number of its layout.
     layout: u64,
-    /// The bindings that were given, a bit each: the others have the layout's stand-ins, if it has any.
-    bindings: u64,
+    /// The bindings that were given, a bit each: the others have the layout's stand-ins, if it has any. `None` of a set that has not all of them yet.
+    bindings: Option<u64>,
 }
 
 impl Sets {
     /// One of this layout, of which the same bindings were given if there is such a one.
     fn take(&mut self, layout: u64, bindings: u64) -> Option<Set> {
         let of_layout = |set: &Set| set.layout == layout;
-        let place = self.free.iter().position(|set| of_layout(set) && set.bindings == bindings);
+        let place = self.free.iter().position(|set| of_layout(set) && set.bindings == Some(bindings));
         let place = place.or_else(|| self.free.iter().position(of_layout))?;
         Some(self.free.swap_remove(place))
     }
@@ -215,31 +171,43 @@ impl DescriptorPool {
         let taken = self.sets.borrow_mut().take(layout.number, bindings);
         let (raw, has) = match taken {
             Some(set) => (set.raw, set.bindings),
-            None => (self.allocate(layout)?, u64::MAX),
+            None => (self.allocate(layout)?, None),
         };
         // Stand-ins stay in a set.
-        let complete = if has == bindings { Ok(()) } else { self.complete(layout, raw, bindings) };
-        let has = if complete.is_ok() { bindings } else { u64::MAX };
+        let complete = match has {
+            Some(has) if has == bindings => Ok(()),
+            // SAFETY: the set is new or was taken back, so that no command buffer uses it.
+            _ => unsafe { self.complete(layout, raw, bindings) },
+        };
+        let has = complete.is_ok().then_some(bindings);
         self.sets.borrow_mut().given.push(Set { raw, layout: layout.number, bindings: has });
         complete?;
-        given.chunks(AT_ONCE).for_each(|some| self.write(layout, raw, some));
+        // SAFETY: as above, and as the caller promises.
+        given.chunks(AT_ONCE).for_each(|some| unsafe { self.write(layout, raw, some) });
         Ok(raw)
     }
 
     /// Writes the layout's stand-ins, if it has any, into the bindings that are not among these.
-    fn complete(&self, layout: &SetLayout, set: vk::DescriptorSet, bindings: u64) -> Result<()> {
+    ///
+    /// # Safety
+    /// The set is of this layout, and no command buffer uses it.
+    unsafe fn complete(&self, layout: &SetLayout, set: vk::DescriptorSet, bindings: u64) -> Result<()> {
         let Some((stand_ins, integers)) = &layout.stand_ins else { return Ok(()) };
         for (number, kind) in (0..).zip(&layout.kinds) {
             if bindings >> number & 1 == 0 {
                 let stand_in = stand_ins.of(*kind, integers.contains(&number))?;
-                self.write(layout, set, &[(number, stand_in)]);
+                // SAFETY: as the caller promises; stand-ins are of the binding's kind, and live as long as the layout.
+                unsafe { self.write(layout, set, &[(number, stand_in)]) };
             }
         }
         Ok(())
     }
 
-    /// Writes at most [`AT_ONCE`] bindings of a set that no command buffer uses.
-    fn write(&self, layout: &SetLayout, set: vk::DescriptorSet, some: &[(u32, Descriptor)]) {
+    /// Writes at most [`AT_ONCE`] bindings.
+    ///
+    /// # Safety
+    /// The set is of this layout, and no command buffer uses it; the descriptors are as for [`Self::set`].
+    unsafe fn write(&self, layout: &SetLayout, set: vk::DescriptorSet, some: &[(u32, Descriptor)]) {
         let infos: InlineVec<_, AT_ONCE> =
             some.iter().map(|(number, descriptor)| (*number, Info::of(*descriptor))).collect();
         let writes = infos.iter().map(|(number, info)| {
@@ -253,7 +221,7 @@ impl DescriptorPool {
             }
         });
         let writes: InlineVec<_, AT_ONCE> = writes.collect();
-        // SAFETY: the set is new or was taken back, so no command buffer uses it; the rest is the contract of `set`, which alone calls this.
+        // SAFETY: as the caller promises.
         unsafe { self.owned.device.raw().update_descriptor_sets(&writes, &[]) };
     }
 

@@ -1,7 +1,10 @@
 //! Random input: without a message, without a stop, and without memory that grows. Ten minutes of it by hand: `cargo test --release --test view -- soak --ignored --nocapture`;
 //! `SURFEL_SOAK_SECS` for another time.
 
-use std::{fs, thread, time::Duration};
+use std::{
+    fs, thread,
+    time::{Duration, Instant},
+};
 
 use super::{
     CAMERA,
@@ -10,8 +13,11 @@ use super::{
     window::{Folder, View},
 };
 
-/// What is in use of the program's own memory may grow by so much.
-const MOST_GROWTH_BYTES: u64 = 1_000_000;
+/// What is in use of the program's own memory, and of the device's, may grow by so much in ten minutes.
+const MOST_GROWTH_BYTES: [u64; 2] = [1_000_000, 4_000_000];
+
+/// In a minute, in which not each setting has been seen before.
+const MOST_GROWTH_OF_A_MINUTE_BYTES: [u64; 2] = [2_000_000, 8_000_000];
 
 /// The first size, all settings and the first camera again.
 fn go_back(screen: &Screen, view: &mut View<'_>) {
@@ -23,7 +29,7 @@ fn go_back(screen: &Screen, view: &mut View<'_>) {
     thread::sleep(Duration::from_secs(2));
 }
 
-/// Every setting once, so that the pipelines that are kept are the same whatever was before; then back.
+/// Every setting once, so that the pipelines that are kept are the same whatever was before.
 fn see_all(screen: &Screen, view: &mut View<'_>) {
     go_back(screen, view);
     let steps =
@@ -35,7 +41,6 @@ fn see_all(screen: &Screen, view: &mut View<'_>) {
         screen.drag([100, 100], [110, 105], 1);
         thread::sleep(Duration::from_millis(300));
     }
-    go_back(screen, view);
 }
 
 fn open<'a>(screen: &'a Screen, folder: &'a Folder, is_validated: bool) -> View<'a> {
@@ -49,11 +54,20 @@ fn open<'a>(screen: &'a Screen, folder: &'a Folder, is_validated: bool) -> View<
 /// What was in use when it rested last, as it printed it: bytes of the program's own, bytes of the device's, and how many pieces these are.
 type Used = [u64; 3];
 
-fn used(view: &View<'_>) -> Used {
-    let printed = view.printed();
-    let line = printed.lines().rev().find_map(|line| line.strip_prefix("at rest: "));
-    let words = line.expect("the window has rested").split_whitespace();
-    let mut numbers = words.filter_map(|word| word.parse().ok());
+/// Goes back, and waits until the window rests.
+fn back_at_rest(screen: &Screen, view: &mut View<'_>) -> Used {
+    let rests = |view: &View<'_>| -> Vec<String> {
+        view.printed().lines().filter_map(|line| line.strip_prefix("at rest: ")).map(str::to_owned).collect()
+    };
+    let before = rests(view).len();
+    go_back(screen, view);
+    let begun = Instant::now();
+    while rests(view).len() == before {
+        assert!(begun.elapsed() < Duration::from_secs(60), "the window does not rest");
+        thread::sleep(Duration::from_millis(200));
+    }
+    let last = rests(view).pop().unwrap();
+    let mut numbers = last.split_whitespace().filter_map(|word| word.parse().ok());
     [(); 3].map(|()| numbers.next().unwrap())
 }
 
@@ -66,13 +80,14 @@ fn resident_mb(view: &View<'_>) -> f64 {
 
 /// What is in use after each of some turns has not grown. How much room lists have on the device differs from turn to turn, so that the most of each half is compared, and
 /// pieces are counted.
-fn assert_constant(used: &[Used]) {
+fn assert_constant(used: &[Used], most_growth_bytes: [u64; 2]) {
     println!("in use, bytes of its own, of the device's, and pieces: {used:?}");
     let (first, second) = used.split_at(used.len() / 2);
     let most = |half: &[Used], of: usize| half.iter().map(|used| used[of]).max().unwrap();
     let grown = [0, 1, 2].map(|of| most(second, of).saturating_sub(most(first, of)));
     let [own, device, pieces] = grown;
-    assert!(own < MOST_GROWTH_BYTES && device < 4 * MOST_GROWTH_BYTES && pieces < 10, "{grown:?}");
+    let [most_own, most_device] = most_growth_bytes;
+    assert!(own < most_own && device < most_device && pieces < 10, "{grown:?}");
 }
 
 #[test]
@@ -82,10 +97,9 @@ fn random_input_leaves_no_more_memory_in_use() {
     let mut random = Random(3);
     let mut turn = |secs| {
         view.play_at_random(&mut random, Duration::from_secs(secs), KEYS);
-        go_back(&screen, &mut view);
-        used(&view)
+        back_at_rest(&screen, &mut view)
     };
-    assert_constant(&[15, 10, 10, 10].map(&mut turn));
+    assert_constant(&[15, 10, 10, 10].map(&mut turn), MOST_GROWTH_OF_A_MINUTE_BYTES);
     view.end();
 }
 
@@ -93,22 +107,22 @@ fn secs() -> u64 {
     std::env::var("SURFEL_SOAK_SECS").ok().and_then(|secs| secs.parse().ok()).unwrap_or(600)
 }
 
-/// Plays, with every setting again after each minute; the most milliseconds that a frame took on the device, when nothing else is shown.
+/// Plays, with every setting again after each minute; the most milliseconds that a frame took on the device. How long after its input it was done is told:
+/// that has the frames before it and those in which pipelines were made, between which the window went on.
 fn play(is_validated: bool, keys: &str) -> f64 {
     let (screen, folder) = (Screen::new(), Folder::new());
     let mut view = open(&screen, &folder, is_validated);
     let mut random = Random(11);
     let (mut in_use, mut resident) = (Vec::new(), Vec::new());
-    for minute in 0..=secs() / 60 {
+    for minute in 0..=(secs() / 60).max(1) {
         if minute > 0 {
             view.play_at_random(&mut random, Duration::from_secs(60), keys);
         }
         if keys == KEYS {
-            see_all(&screen, &mut view);
-        } else {
             go_back(&screen, &mut view);
+            see_all(&screen, &mut view);
         }
-        in_use.push(used(&view));
+        in_use.push(back_at_rest(&screen, &mut view));
         resident.push(resident_mb(&view));
     }
     println!("resident at first and after each minute, MB: {resident:.1?}");
@@ -133,7 +147,7 @@ fn play(is_validated: bool, keys: &str) -> f64 {
             at(999)
         );
     }
-    assert_constant(&in_use);
+    assert_constant(&in_use, MOST_GROWTH_BYTES);
     longest
 }
 
@@ -151,7 +165,7 @@ fn ten_minutes_of_random_input_leave_no_more_memory() {
 
 #[test]
 #[ignore = "twenty minutes"]
-fn ten_minutes_of_random_input_are_answered_within_a_second_without_a_message() {
+fn ten_minutes_of_random_input_need_a_second_a_frame_at_most_and_say_nothing() {
     let longest_ms = play(true, KEYS);
     assert!(longest_ms < 1000.0, "{longest_ms}");
 }

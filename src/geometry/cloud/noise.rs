@@ -3,16 +3,13 @@
 //! Where the 12 nearest neighbors of most points are as thick as wide, planes through them mean nothing. Planes are then fitted
 //! to the 48 nearest of all points, of every 4th, of every 16th and so on: the first of these in which most are flat enough, or on a
 //! sheet that is, or else the flattest. That is as many points a plane at any coarseness. What is fitted are [`patches`], fewer than points,
-//! which tell the normals of all, and halve the error of each plane: so these may have a thickness that one plane alone must not, and the face
+//! which tell the normals of all, and are less far off than each plane: so these may have a thickness that one plane alone must not, and the face
 //! of a statue keeps its features. A million points of a ball with 1% noise need every 16th.
-
-use glam::DVec3;
 
 use super::{
     fit::{FLAT, Plane},
-    patches,
+    patches::{self, every, nearest, or_sheet},
     plane::{MOST_NEIGHBORS, NEIGHBORS},
-    sheets,
 };
 use crate::geometry::neighbors::Tree;
 
@@ -22,9 +19,6 @@ const STRIDES: [usize; 6] = [4, 16, 64, 256, 1024, 4096];
 /// Thickness over width up to which planes of patches are flat enough, and up to which the flattest are a surface. Points in a volume have 0.7 to 0.9.
 const FLAT_ENOUGH: f64 = 0.4;
 const THICKEST: f64 = 0.6;
-
-/// Thickness over width above which neighbors may be of two sheets.
-const MIXED: f64 = 0.25;
 
 /// So many points tell of all.
 const SAMPLES: usize = 200;
@@ -48,11 +42,6 @@ pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
     (least <= THICKEST).then(|| patches::normals(tree, flattest.as_ref().unwrap_or(tree)))
 }
 
-/// The tree of every so manieth point.
-pub(super) fn every(tree: &Tree, stride: usize) -> Tree {
-    Tree::new(tree.points().iter().step_by(stride).copied().collect())
-}
-
 /// The median thickness of planes through the `count` points of `among` that are nearest to a point; 0 of too few points to tell.
 fn thickness(tree: &Tree, among: &Tree, count: usize) -> f64 {
     let total = tree.points().len();
@@ -70,22 +59,10 @@ fn thickness(tree: &Tree, among: &Tree, count: usize) -> f64 {
     *all.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// The plane through all neighbors, or the sheet among them.
-pub(super) fn or_sheet(whole: Plane, offsets: &[DVec3]) -> Plane {
-    let sheet = (whole.thickness > MIXED).then(|| sheets::wide(offsets));
-    sheet.flatten().unwrap_or(whole)
-}
-
-/// The offsets from a place of the points of a tree that are nearest to it, nearest first.
-pub(super) fn nearest(tree: &Tree, place: DVec3, count: usize) -> Vec<DVec3> {
-    let mut found = vec![(0.0, 0); count];
-    tree.nearest_places_to(place, &mut found);
-    let near = found.iter().filter(|(_, at)| *at != u32::MAX);
-    near.map(|&(_, at)| tree.points()[at as usize].position - place).collect()
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
     use crate::{geometry::neighbors::Point, math::random::SplitMix};
 

@@ -6,7 +6,7 @@
 //! a point to the middle of what it has neighbors of, which on a torus is more than the noise. A direction along which patches do not lie, across the
 //! surface, says nothing of A: a ridge of [`RIDGE`] keeps it zero.
 //!
-//! A point takes the mean of what the patches about it tell at its place, weighted by how near they are; in space and along their
+//! A point takes the mean of what the patches about it and its neighbors tell at its place, weighted by how near they are; in space and along their
 //! normals, so that beside an edge they are rather those of the face on which the point lies. Of the nearest alone, normals would change at
 //! once somewhere beside an edge, where 60 of 2 million places of a noisy cube were in no disk then.
 
@@ -17,8 +17,8 @@ use rayon::prelude::*;
 
 use super::{
     fit::Plane,
-    noise::{every, nearest, or_sheet},
     plane::{MOST_NEIGHBORS, NEIGHBORS},
+    sheets,
 };
 use crate::geometry::neighbors::{Point, Tree};
 
@@ -26,17 +26,39 @@ use crate::geometry::neighbors::{Point, Tree};
 /// normals farther off.
 const EVERY: usize = 4;
 
+/// Thickness over width above which neighbors may be of two sheets.
+const MIXED: f64 = 0.25;
+
 /// Cosine of the angle between normals up to which patches are of one face.
 const SAME_FACE: f64 = 0.8;
 
 /// What is added to each axis of the patches' covariance, as a part of all.
 const RIDGE: f64 = 0.03;
 
-/// Patches so many times as far as the nearest, squared, tell nothing.
+/// Patches whose squared distance is so many times the nearest's tell nothing.
 const FARTHEST: f64 = 6.0;
 
-/// So many points at most look for patches together: those about their middle.
+/// About so many points look for patches together: the 12 nearest to their middle.
 const GROUP: usize = 32;
+
+/// The tree of every so manieth point.
+pub(super) fn every(tree: &Tree, stride: usize) -> Tree {
+    Tree::new(tree.points().iter().step_by(stride).copied().collect())
+}
+
+/// The plane through all neighbors, or the sheet among them.
+pub(super) fn or_sheet(whole: Plane, offsets: &[DVec3]) -> Plane {
+    let sheet = (whole.thickness > MIXED).then(|| sheets::wide(offsets));
+    sheet.flatten().unwrap_or(whole)
+}
+
+/// The offsets from a place of the points of a tree that are nearest to it, nearest first.
+pub(super) fn nearest(tree: &Tree, place: DVec3, count: usize) -> Vec<DVec3> {
+    let mut found = vec![(0.0, 0); count];
+    tree.nearest_places_to(place, &mut found);
+    let near = found.iter().filter(|(_, at)| *at != u32::MAX);
+    near.map(|&(_, at)| tree.points()[at as usize].position - place).collect()
+}
 
 /// A plane of the surface.
 #[derive(Clone, Copy)]

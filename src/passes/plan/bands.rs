@@ -134,10 +134,11 @@ impl<'m> Cut<'_, 'm> {
         self.whole.of_rows_of_it(self.draws, self.seen, rows, self.settings, self.limits)
     }
 
-    /// What records and entries of these rows take.
+    /// About what these rows take: records, entries, and their share of the tiles.
     fn cost(&self, rows: Range<u32>) -> u64 {
+        let of_tiles = self.whole.bytes_of_bins() * rows.len() as u64 / self.whole.rows.len().max(1) as u64;
         let [end, start] = [rows.end, rows.start].map(|row| self.costs[row as usize]);
-        end[0] - start[1]
+        end[0] - start[1] + of_tiles
     }
 
     /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many.
@@ -156,5 +157,56 @@ impl<'m> Cut<'_, 'm> {
             }
         }
         Some(self.arena.list(plans.iter().map(|plan| plan.with_common_capacity(&plans))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec3, Vec3};
+
+    use super::*;
+    use crate::{
+        math::random::SplitMix,
+        passes::plan::{draws::draws, range::DepthRange, tiles::rows::rows_of_image},
+        prepare::{Placed, prepare_without_device},
+        scene::{Camera, Colors, Object, Rasterizer, Scene, Shapes, Splats},
+    };
+
+    /// Few splats in a large image, whose tiles take more than they do, and many.
+    #[test]
+    fn a_band_takes_no_more_than_it_may_tiles_without_splats_included() {
+        let limits = Limits::plain();
+        for (count, radius, side_px) in [(20_000, 0.01, 4096), (100_000, 0.004, 3000)] {
+            let mut random = SplitMix(3);
+            let mut side = || 2.0 * random.unit() - 1.0;
+            let positions = (0..count).map(|_| DVec3::new(side(), side(), 0.0)).collect();
+            let shapes = Shapes::Disks { normals: vec![Vec3::Z; count], radii: vec![radius; count] };
+            let splats = Splats::new(positions, shapes, Colors::Uniform([1.0; 4]));
+            let objects = vec![Object { name: "sheet".to_owned(), splats, closed: false }];
+            let prepared =
+                prepare_without_device(&limits, &Scene { objects, ..Scene::default() }).expect("a sheet");
+            let most = 16_000_000;
+            let settings = Settings {
+                size_px: [side_px; 2],
+                rasterizer: Rasterizer::Compute,
+                tile_memory: TileMemory::Most(most),
+                ..Settings::default()
+            };
+            let camera = Camera { eye: DVec3::new(0.0, 0.0, 2.6), ..Camera::default() };
+            let range = DepthRange::of(&[Placed::at_home(&prepared)], &camera);
+            let camera = range.begin(&camera);
+            let arena = Arena::new();
+            let draws = arena.list(draws(Placed::at_home(&prepared), (&camera, range), &settings, &limits));
+            let rows = rows_of_image(&settings);
+            let runs = arena.list(draws.iter().map(|draw| draw.potentially_visible_runs(&arena)));
+            let seen = PotentiallyVisibleBlocks::new(&arena, runs, rows.end);
+            let whole = TilePlan::of(draws, false, &settings, &limits).expect("room");
+            let whole = whole.tightened_to_blocks(draws, &seen, &settings, &limits);
+            let cut = cut_into_bands(&arena, draws, &seen, &whole, &settings, &limits);
+            let of_bands: Vec<u64> = cut.iter().map(TilePlan::bytes).collect();
+            println!("{count} at {side_px}: {} in bands of {of_bands:?}", whole.bytes());
+            assert!((2..=4).contains(&cut.len()), "{of_bands:?} of {}", whole.bytes());
+            assert!(of_bands.iter().all(|bytes| *bytes <= most), "{of_bands:?} of {}", whole.bytes());
+        }
     }
 }

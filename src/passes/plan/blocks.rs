@@ -58,8 +58,8 @@ fn box_at_px(block: &Block, nearest_z: f64, most_x: f64, look: &BlockCullView<'_
     box_within_px(&bound, largest_radius, most_x.min(look.half_image))
 }
 
-/// What is seen of a block, or of several that lie in a row within its bounds. Whether it is seen is asked once, of all that is known: nobody could guess it, and a wrong guess of a processor
-/// takes as long as half of the rest. Where it is not in line, what it answers is copied in pieces that were not written so, each of which waits for memory.
+/// What is seen of a block, or of several that lie in a row within its bounds. Whether it is seen is asked once, at the end: a branch that is predicted
+/// wrongly takes as long as half of the rest. In line, as the caller's loads of what it returned would wait for its stores, which are of other widths.
 #[inline(always)]
 fn look_at(
     first: u32,
@@ -142,7 +142,7 @@ impl Ball {
     /// the deeper, reaches.
     fn is_beyond(&self, plane: DVec4, look: &BlockCullView<'_>) -> bool {
         let depth = if look.bound.is_orthographic { 1.0 } else { self.z + self.reach };
-        let of_filter = 2.0 * FILTER_RESERVE_PX / look.bound.focal_px * depth.max(0.0);
+        let of_filter = FILTER_RESERVE_PX / look.bound.focal_px * depth.max(0.0);
         let inside = plane.truncate().dot(DVec3::new(self.x, self.y, self.z)) + plane.w;
         let reserve = LENGTH_RESERVE * (plane.w.abs() + self.z.abs());
         inside < -(self.reach + of_filter + reserve)

@@ -116,9 +116,13 @@ impl TilePlan {
     /// Bytes of records and lists, and of the lists of splats that may be seen which they are made from.
     pub fn bytes(&self) -> u64 {
         let of_records = bytes_of_records(self.record_room);
+        of_records + self.clip_bytes() + self.entry_room * 4 + self.bytes_of_bins()
+    }
+
+    /// Bytes of what there is of each tile, whatever splats it has.
+    pub(crate) fn bytes_of_bins(&self) -> u64 {
         // Starts, tiles with splats, runs, overflow tiles.
-        let of_bins = u64::from(self.bin_count()) * 4 + u64::from(self.tile_count) * 16;
-        of_records + self.clip_bytes() + self.entry_room * 4 + self.count_bytes() + of_bins
+        self.count_bytes() + u64::from(self.bin_count()) * 4 + u64::from(self.tile_count) * 16
     }
 
     /// Bytes of one splat's record and entries, whose box has so many pixels.

@@ -193,8 +193,11 @@ impl Gpu {
             self.pictures[which.index()].submitted(epoch, begun);
         }
         self.number = (self.number + 1) % IN_FLIGHT;
-        // SAFETY: this thread alone records, and has submitted what it recorded.
-        self.dropped += unsafe { self.headless.renderer.shaders().keep_newest(MOST_PIPELINES) };
+        // Not while those of a picture are made, of which the first are the oldest.
+        if !desc.views.is_empty() {
+            // SAFETY: this thread alone records, and has submitted what it recorded.
+            self.dropped += unsafe { self.headless.renderer.shaders().keep_newest(MOST_PIPELINES) };
+        }
         if self.dropped >= MANY_PIPELINES {
             self.dropped = 0;
             memory::give_back();

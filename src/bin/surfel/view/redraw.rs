@@ -169,14 +169,16 @@ impl Viewer {
             views.extend(other.as_ref().map(|other| (Use::Other, view(other))));
         }
         // The window goes on with the picture that is there until the pipelines of another are.
-        if self.is_unsure && !views.is_empty() {
+        let is_asked = !views.is_empty();
+        if self.is_unsure && is_asked {
             self.is_unsure = !self.gpu.make_pipelines(&views)?;
-            if self.ui.set_compiling(self.is_unsure) || self.is_unsure {
-                self.window.request_redraw();
-            }
             if self.is_unsure {
                 views.clear();
+                self.window.request_redraw();
             }
+        }
+        if self.ui.set_compiling(self.is_unsure && is_asked) {
+            self.window.request_redraw();
         }
         let drawn = (!views.is_empty()).then_some(which);
         let comparing = self.comparing.filter(|_| drawn.is_some() || self.gpu.has_picture(Use::Other));

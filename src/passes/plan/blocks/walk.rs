@@ -40,7 +40,7 @@ pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
     looked_into(arena, chunk, look, top, MOST_LOOKS, |run| !run.all_seen)
 }
 
-/// These runs, in place of which there are their parts where they are not seen as wholes, or reach over one of these rows: a band may end there, and all other runs are in one band.
+/// These runs, in place of which there are their parts where they are not seen as wholes, or reach over one of these rows, about which a band may end.
 pub(in crate::passes::plan) fn closer_runs<'m>(
     arena: &'m Arena,
     chunk: &Chunk,

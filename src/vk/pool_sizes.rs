@@ -1,0 +1,55 @@
+//! How much a pool of descriptor sets has room for.
+
+use ash::vk;
+
+/// Room in a pool.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PoolSizes {
+    /// Sets.
+    pub sets: u32,
+    /// Storage buffers in all sets.
+    pub buffers: u32,
+    /// Uniform buffers.
+    pub uniform_buffers: u32,
+    /// Buffers read by texels.
+    pub texel_buffers: u32,
+    /// Sampled images.
+    pub images: u32,
+    /// Sampled images with a sampler.
+    pub filtered_images: u32,
+    /// Storage images.
+    pub storage_images: u32,
+}
+
+impl PoolSizes {
+    /// The descriptors of each kind.
+    pub(super) fn kinds(&self) -> [(vk::DescriptorType, u32); 6] {
+        [
+            (vk::DescriptorType::STORAGE_BUFFER, self.buffers),
+            (vk::DescriptorType::UNIFORM_BUFFER, self.uniform_buffers),
+            (vk::DescriptorType::UNIFORM_TEXEL_BUFFER, self.texel_buffers),
+            (vk::DescriptorType::SAMPLED_IMAGE, self.images),
+            (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, self.filtered_images),
+            (vk::DescriptorType::STORAGE_IMAGE, self.storage_images),
+        ]
+    }
+
+    /// Room for both.
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            sets: self.sets + other.sets,
+            buffers: self.buffers + other.buffers,
+            uniform_buffers: self.uniform_buffers + other.uniform_buffers,
+            texel_buffers: self.texel_buffers + other.texel_buffers,
+            images: self.images + other.images,
+            filtered_images: self.filtered_images + other.filtered_images,
+            storage_images: self.storage_images + other.storage_images,
+        }
+    }
+
+    /// Whether a pool of this room has room for that.
+    pub fn holds(&self, wanted: &Self) -> bool {
+        let mut kinds = wanted.kinds().into_iter().zip(self.kinds());
+        wanted.sets <= self.sets && kinds.all(|((_, wanted), (_, own))| wanted <= own)
+    }
+}
