@@ -6,6 +6,8 @@
 //! which tell the normals of all, and are less far off than each plane: so these may have a thickness that one plane alone must not, and the face
 //! of a statue keeps its features. A million points of a ball with 1% noise need every 16th.
 
+use glam::DVec3;
+
 use super::{
     fit::{FLAT, Plane},
     patches::{self, every, nearest, or_sheet},
@@ -61,8 +63,6 @@ fn thickness(tree: &Tree, among: &Tree, count: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
     use crate::{geometry::neighbors::Point, math::random::SplitMix};
 
