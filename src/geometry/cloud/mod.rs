@@ -1,7 +1,7 @@
 //! Points become splats: normals and radii that the file does not have, from the points nearby.
 //!
 //! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`], or the one of their [`sheets`]
-//! that it lies on, in coarser steps where there is [`noise`]; normals are turned to one side ([`orient`]); isolated points are left
+//! that it lies on, or of coarser [`patches`] where there is [`noise`]; normals are turned to one side ([`orient`]); isolated points are left
 //! out ([`outliers`]); disks [`reach`] as far as closes the surface. All of it is the same whatever the number of threads.
 //!
 //! Splats are round: ellipses take half as much memory again (48 bytes on the device instead of 32), and gain only where points lie

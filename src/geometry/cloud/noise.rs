@@ -22,6 +22,10 @@ const STRIDES: [usize; 6] = [4, 16, 64, 256, 1024, 4096];
 const FLAT_ENOUGH: f64 = 0.4;
 const THICKEST: f64 = 0.6;
 
+/// Thickness over width above which neighbors may be of two sheets; of patches, if it is also so many times that of most of them.
+const MIXED: f64 = 0.25;
+const THICKER: f64 = 1.2;
+
 /// So many points tell of all.
 const SAMPLES: usize = 200;
 
@@ -41,7 +45,8 @@ pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
             (least, flattest) = (found, Some(coarse));
         }
     }
-    (least <= THICKEST).then(|| patches::normals(tree, flattest.as_ref().unwrap_or(tree)))
+    let coarse = flattest.as_ref().unwrap_or(tree);
+    (least <= THICKEST).then(|| patches::normals(tree, coarse, MIXED.max(THICKER * least)))
 }
 
 /// The median thickness of planes through the `count` points of `among` that are nearest to a point; 0 of too few points to tell.
@@ -53,7 +58,7 @@ fn thickness(tree: &Tree, among: &Tree, count: usize) -> f64 {
     let of = |place: usize| {
         let offsets = nearest(among, tree.points()[place].position, count);
         let whole = Plane::fit(&offsets, |_| true);
-        let plane = if count == NEIGHBORS { whole } else { or_sheet(whole, &offsets) };
+        let plane = if count == NEIGHBORS { whole } else { or_sheet(whole, &offsets, MIXED) };
         plane.thickness
     };
     let mut all: Vec<f64> = (0..total).step_by(total.div_ceil(SAMPLES)).map(of).collect();

@@ -26,9 +26,6 @@ use crate::geometry::neighbors::{Point, Tree};
 /// normals farther off.
 const EVERY: usize = 4;
 
-/// Thickness over width above which neighbors may be of two sheets.
-const MIXED: f64 = 0.25;
-
 /// Cosine of the angle between normals up to which patches are of one face.
 const SAME_FACE: f64 = 0.8;
 
@@ -46,9 +43,9 @@ pub(super) fn every(tree: &Tree, stride: usize) -> Tree {
     Tree::new(tree.points().iter().step_by(stride).copied().collect())
 }
 
-/// The plane through all neighbors, or the sheet among them.
-pub(super) fn or_sheet(whole: Plane, offsets: &[DVec3]) -> Plane {
-    let sheet = (whole.thickness > MIXED).then(|| sheets::wide(offsets));
+/// The plane through all neighbors, or the sheet among them if it is thicker than `mixed`.
+pub(super) fn or_sheet(whole: Plane, offsets: &[DVec3], mixed: f64) -> Plane {
+    let sheet = (whole.thickness > mixed).then(|| sheets::wide(offsets));
     sheet.flatten().unwrap_or(whole)
 }
 
@@ -79,11 +76,12 @@ struct Patch {
     reach: f64,
 }
 
-/// The normals at all points of a tree, of patches through the points of a coarser one or of itself; their sides mean nothing.
-pub(super) fn normals(tree: &Tree, coarse: &Tree) -> Vec<DVec3> {
+/// The normals at all points of a tree, of patches through the points of a coarser one or of itself; their sides mean nothing. Planes thicker than
+/// `mixed` may be of two sheets.
+pub(super) fn normals(tree: &Tree, coarse: &Tree, mixed: f64) -> Vec<DVec3> {
     let middles = every(coarse, EVERY);
     let facets: Vec<Facet> =
-        middles.points().par_iter().map(|middle| Facet::at(middle.position, coarse)).collect();
+        middles.points().par_iter().map(|middle| Facet::at(middle.position, coarse, mixed)).collect();
     let patches: Vec<Patch> = (0..facets.len())
         .into_par_iter()
         .map(|place| Patch::new(facets[place], near(&middles, middles.points()[place].position, &facets)))
@@ -124,9 +122,9 @@ fn normal(point: &Point, patches: &[&Patch]) -> DVec3 {
 
 impl Facet {
     /// Of the points about a place.
-    fn at(place: DVec3, points: &Tree) -> Self {
+    fn at(place: DVec3, points: &Tree, mixed: f64) -> Self {
         let offsets = nearest(points, place, MOST_NEIGHBORS);
-        let plane = or_sheet(Plane::fit(&offsets, |_| true), &offsets);
+        let plane = or_sheet(Plane::fit(&offsets, |_| true), &offsets, mixed);
         Self { mean: place + plane.mean, normal: plane.normal }
     }
 
@@ -191,7 +189,7 @@ mod tests {
         let mut positions: Vec<DVec3> = (0..1000).map(&mut on_pipe).collect();
         positions.push(DVec3::new(100.0, 0.5, 0.8));
         let tree = tree(positions);
-        for (point, normal) in tree.points().iter().zip(normals(&tree, &tree)) {
+        for (point, normal) in tree.points().iter().zip(normals(&tree, &tree, 0.25)) {
             let truth = DVec3::new(point.position.x, 0.0, point.position.z).normalize();
             let angle = normal.dot(truth).abs().min(1.0).acos().to_degrees();
             match point.number {
@@ -204,9 +202,9 @@ mod tests {
     #[test]
     fn points_that_are_one_place_or_lie_on_a_line_have_normals_all_the_same() {
         let line = tree((0..300).map(|i| DVec3::X * f64::from(i)));
-        assert!(normals(&line, &line).iter().all(|n| n.is_normalized() && n.x.abs() < 1e-9));
+        assert!(normals(&line, &line, 0.25).iter().all(|n| n.is_normalized() && n.x.abs() < 1e-9));
         for one in [tree([DVec3::ONE; 300]), tree([1e-180; 300].map(DVec3::splat)), tree([DVec3::NAN; 5])] {
-            assert!(normals(&one, &one).iter().all(|n| n.is_normalized()));
+            assert!(normals(&one, &one, 0.25).iter().all(|n| n.is_normalized()));
         }
     }
 }
