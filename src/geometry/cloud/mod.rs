@@ -155,10 +155,8 @@ impl Cloud {
             let normal = points.normals.as_ref()?[number].as_dvec3();
             normal.is_finite().then(|| normal.try_normalize()).flatten()
         };
-        let coarse = match self.tree.points().iter().enumerate().all(|(place, _)| of_file(place).is_some()) {
-            true => None,
-            false => noise::normals(&self.tree),
-        };
+        let given: Vec<bool> = (0..count).map(|place| of_file(place).is_some()).collect();
+        let coarse = if given.iter().all(|given| *given) { None } else { noise::normals(&self.tree) };
         let one = |[first, more]: &mut [Vec<DVec3>; 2], place: usize| {
             let mut near = self.near::<NEIGHBORS>(place);
             let offsets = self.offsets(place, &near, |_| true, first);
@@ -198,7 +196,6 @@ impl Cloud {
                 },
             );
         }
-        let given: Vec<bool> = (0..count).map(|place| of_file(place).is_some()).collect();
         report.noisy = coarse.is_some();
         report.normals_from_file = given.iter().filter(|given| **given).count();
         (self.neighbors, self.spreads, self.normals) = (neighbors, spreads, normals);

@@ -81,7 +81,7 @@ fn cases(count: usize) -> Vec<Case> {
     let surfaces: [(&str, Surface, [f64; 2], [f64; 2]); 4] = [
         ("sphere", |s, _| s.sphere(), [1.0, 4.0], [2.0, 5.0]),
         ("torus", |s, _| s.torus(), [2.0, 8.0], [2.5, 7.0]),
-        ("cube", |s, _| s.cube(), [3.0, 90.0], [9.0, 65.0]),
+        ("cube", |s, _| s.cube(), [3.0, 90.0], [9.0, 60.0]),
         ("plate", |s, apart| s.plate(apart), [0.5, 1.0], [2.5, 9.0]),
     ];
     let mut s = Surfaces(SplitMix(11));

@@ -32,6 +32,7 @@ mod path;
 mod picking;
 mod picture;
 mod popups;
+mod printed;
 mod recover;
 mod redraw;
 mod refine;

@@ -16,12 +16,13 @@ use super::{
     loading::Step,
     on_device::{OnDevice, Paged},
     overlay::OverlayFrame,
-    picture::{Cost, Use},
+    picture::Use,
+    printed,
     refine::Refinement,
     show::{ShowDesc, Shown},
     viewer::Viewer,
 };
-use crate::{allocator, console};
+use crate::console;
 
 /// The camera rests once it has not moved for so long.
 const REST: Duration = Duration::from_millis(25);
@@ -55,7 +56,7 @@ impl Viewer {
             if rests {
                 let _ = self.gpu.tidy(self.comparing.is_some());
                 if self.options.prints_frames {
-                    let _ = console::print(&self.memory());
+                    let _ = console::print(&printed::at_rest(self.gpu.headless.device()));
                 }
                 if self.ui.shows_times() && self.splats_drawn.is_none() && !self.is_stale {
                     let _ = self.count_drawn();
@@ -247,7 +248,7 @@ impl Viewer {
                 }
                 self.ui.history.push(&cost);
                 if self.options.prints_frames {
-                    console::print(&line(&cost))?;
+                    console::print(&printed::frame(&cost))?;
                 }
             }
             if !all && self.shows_costs() {
@@ -255,13 +256,6 @@ impl Viewer {
             }
         }
         Ok(())
-    }
-
-    /// What is in use of memory, as it is printed.
-    fn memory(&self) -> String {
-        let (bytes, pieces) = self.gpu.headless.device().memory_in_use();
-        let own = allocator::live_bytes();
-        format!("at rest: {own} bytes of the program's own, {bytes} of the device's in {pieces} pieces")
     }
 
     fn shows_costs(&self) -> bool {
@@ -290,13 +284,4 @@ impl Viewer {
     pub fn camera(&self) -> Option<Camera> {
         self.navigation.as_ref().map(|navigation| navigation.camera)
     }
-}
-
-/// A frame as it is printed.
-fn line(cost: &Cost) -> String {
-    let ([width, height], what) = (cost.size_px, cost.what);
-    let since = cost.since_input.map_or(String::new(), |since| {
-        format!(", its end seen {:.1} ms after its input", 1e3 * since.as_secs_f64())
-    });
-    format!("{what} {width}x{height}: {:.1} ms on the device{since}", 1e3 * cost.secs)
 }
