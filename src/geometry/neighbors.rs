@@ -5,6 +5,7 @@
 //! The tree is the order of its points, and each node's plane goes through its middle one. Distances depend neither on
 //! the number of threads nor on the order of the points.
 
+mod nearest;
 #[cfg(test)]
 mod tests;
 
@@ -75,7 +76,7 @@ impl Tree {
                     let first = batch.start + i * share;
                     scope.spawn(move || {
                         for (j, distances) in part.iter_mut().enumerate() {
-                            *distances = self.nearest(first + j);
+                            *distances = self.six_distances(first + j);
                         }
                     });
                 }
@@ -144,44 +145,7 @@ impl Tree {
         &self.points
     }
 
-    /// Fills `found` with the squared distances and places of the others nearest to the point at `place`, nearest first.
-    /// Where there are fewer, infinite distances stand behind them.
-    pub(super) fn nearest_places(&self, place: usize, found: &mut [(f64, u32)]) {
-        let target = self.points[place].position;
-        // Those beside it in the order of the tree are near: as many as are looked for are no farther than the farthest of these, and what
-        // is beyond need not be sorted. It changes nothing of what is found.
-        let count = found.len();
-        let first = place.saturating_sub(count / 2).min(self.points.len().saturating_sub(count + 1));
-        let beside = self.points.get(first..first + count + 1).map_or(f64::INFINITY, |beside| {
-            let squared = beside.iter().map(|point| target.distance_squared(point.position));
-            squared.fold(0.0, f64::max).next_up()
-        });
-        self.nearest_but(Some(place), target, beside, found);
-    }
-
-    /// As [`Tree::nearest_places`] for a place that is no point's.
-    pub(super) fn nearest_places_to(&self, target: DVec3, found: &mut [(f64, u32)]) {
-        self.nearest_but(None, target, f64::INFINITY, found);
-    }
-
-    /// Those less than the root of `bound` away.
-    fn nearest_but(&self, place: Option<usize>, target: DVec3, bound: f64, found: &mut [(f64, u32)]) {
-        found.fill((bound, u32::MAX));
-        let Some(last) = found.len().checked_sub(1) else { return };
-        self.search(0..self.points.len(), target, bound, &mut |other, squared| {
-            if squared < found[last].0 && Some(other) != place {
-                let mut i = last;
-                while i > 0 && squared < found[i - 1].0 {
-                    found[i] = found[i - 1];
-                    i -= 1;
-                }
-                found[i] = (squared, other as u32);
-            }
-            found[last].0
-        });
-    }
-
-    fn nearest(&self, place: usize) -> [f64; NEIGHBORS] {
+    fn six_distances(&self, place: usize) -> [f64; NEIGHBORS] {
         let mut nearest = [f64::INFINITY; NEIGHBORS];
         let target = self.points[place].position;
         self.search(0..self.points.len(), target, f64::INFINITY, &mut |other, squared| {

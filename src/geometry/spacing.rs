@@ -15,12 +15,12 @@ pub fn mean_spacing(positions: &[DVec3]) -> Option<f64> {
     let moved = |(number, position): (u32, &DVec3)| Point { position: *position - origin, number };
     let tree = Tree::new((0..).zip(finite).map(moved).collect());
     let count = tree.points().len();
-    let distances = (0..count).step_by(count.div_ceil(ASKED).max(1)).map(|place| {
-        let mut nearest = [(0.0, 0)];
-        tree.nearest_places(place, &mut nearest);
-        nearest[0].0.sqrt()
+    let distances = (0..count).step_by(count.div_ceil(ASKED).max(1)).map(|place| -> Option<f64> {
+        let [nearest] = tree.nearest_places(place);
+        let nearest = tree.points().get(nearest as usize)?;
+        Some(tree.points()[place].position.distance(nearest.position))
     });
-    mean(distances.filter(|distance| distance.is_finite()))
+    mean(distances.flatten())
 }
 
 /// The mean length of the triangles' sides; `None` where there is none.

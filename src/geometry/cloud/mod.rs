@@ -127,9 +127,7 @@ impl Cloud {
 
     /// Up to `K` neighbors.
     fn near<const K: usize>(&self, place: usize) -> [u32; K] {
-        let mut found = [(0.0, 0); K];
-        self.tree.nearest_places(place, &mut found);
-        found.map(|(_, place)| place)
+        self.tree.nearest_places(place)
     }
 
     /// The offsets of those neighbors that `part` takes, in the same memory for one point after another.

@@ -31,16 +31,16 @@ const SAMPLES: usize = 200;
 
 /// The normals at all points, if those of 12 neighbors are too noisy and coarser ones are not; their sides mean nothing.
 pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
-    if thickness(tree, tree, NEIGHBORS) <= FLAT {
+    if thickness::<NEIGHBORS>(tree, tree) <= FLAT {
         return None;
     }
-    let (mut least, mut flattest) = (thickness(tree, tree, MOST_NEIGHBORS), None);
+    let (mut least, mut flattest) = (thickness::<MOST_NEIGHBORS>(tree, tree), None);
     for stride in STRIDES {
         if least <= FLAT_ENOUGH || tree.points().len() / stride <= 4 * MOST_NEIGHBORS {
             break;
         }
         let coarse = every(tree, stride);
-        let found = thickness(tree, &coarse, MOST_NEIGHBORS);
+        let found = thickness::<MOST_NEIGHBORS>(tree, &coarse);
         if found < least {
             (least, flattest) = (found, Some(coarse));
         }
@@ -49,16 +49,16 @@ pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
     (least <= THICKEST).then(|| patches::normals(tree, coarse, MIXED.max(THICKER * least)))
 }
 
-/// The median thickness of planes through the `count` points of `among` that are nearest to a point; 0 of too few points to tell.
-fn thickness(tree: &Tree, among: &Tree, count: usize) -> f64 {
+/// The median thickness of planes through the `K` points of `among` that are nearest to a point; 0 of too few points to tell.
+fn thickness<const K: usize>(tree: &Tree, among: &Tree) -> f64 {
     let total = tree.points().len();
-    if among.points().len() <= 4 * count {
+    if among.points().len() <= 4 * K {
         return 0.0;
     }
     let of = |place: usize| {
-        let offsets = nearest(among, tree.points()[place].position, count);
+        let offsets = nearest::<K>(among, tree.points()[place].position);
         let whole = Plane::fit(&offsets, |_| true);
-        let plane = if count == NEIGHBORS { whole } else { or_sheet(whole, &offsets, MIXED) };
+        let plane = if K == NEIGHBORS { whole } else { or_sheet(whole, &offsets, MIXED) };
         plane.thickness
     };
     let mut all: Vec<f64> = (0..total).step_by(total.div_ceil(SAMPLES)).map(of).collect();

@@ -50,11 +50,10 @@ pub(super) fn or_sheet(whole: Plane, offsets: &[DVec3], mixed: f64) -> Plane {
 }
 
 /// The offsets from a place of the points of a tree that are nearest to it, nearest first.
-pub(super) fn nearest(tree: &Tree, place: DVec3, count: usize) -> Vec<DVec3> {
-    let mut found = vec![(0.0, 0); count];
-    tree.nearest_places_to(place, &mut found);
-    let near = found.iter().filter(|(_, at)| *at != u32::MAX);
-    near.map(|&(_, at)| tree.points()[at as usize].position - place).collect()
+pub(super) fn nearest<const K: usize>(tree: &Tree, place: DVec3) -> Vec<DVec3> {
+    let found: [u32; K] = tree.nearest_places_to(place);
+    let near = found.iter().filter_map(|at| tree.points().get(*at as usize));
+    near.map(|point| point.position - place).collect()
 }
 
 /// A plane of the surface.
@@ -97,9 +96,8 @@ pub(super) fn normals(tree: &Tree, coarse: &Tree, mixed: f64) -> Vec<DVec3> {
 
 /// What belongs to the points of a tree that are nearest to a place.
 fn near<'a, T>(tree: &Tree, place: DVec3, all: &'a [T]) -> impl Iterator<Item = &'a T> + Clone {
-    let mut found = [(0.0, 0); NEIGHBORS];
-    tree.nearest_places_to(place, &mut found);
-    found.into_iter().filter_map(|(_, at)| all.get(at as usize))
+    let found: [u32; NEIGHBORS] = tree.nearest_places_to(place);
+    found.into_iter().filter_map(|at| all.get(at as usize))
 }
 
 /// What the patches near a point tell.
@@ -123,7 +121,7 @@ fn normal(point: &Point, patches: &[&Patch]) -> DVec3 {
 impl Facet {
     /// Of the points about a place.
     fn at(place: DVec3, points: &Tree, mixed: f64) -> Self {
-        let offsets = nearest(points, place, MOST_NEIGHBORS);
+        let offsets = nearest::<MOST_NEIGHBORS>(points, place);
         let plane = or_sheet(Plane::fit(&offsets, |_| true), &offsets, mixed);
         Self { mean: place + plane.mean, normal: plane.normal }
     }

@@ -44,10 +44,9 @@ fn holes(splats: &Splats, places: &[Sample], margin: f64) -> usize {
     let numbered = (0..).zip(&splats.positions).map(|(number, &position)| Point { position, number });
     let tree = Tree::new(numbered.collect());
     let covered = |(place, normal): &Sample| {
-        let mut near = vec![(0.0, 0); 40];
-        tree.nearest_places_to(*place, &mut near);
-        near.iter().filter(|(_, at)| *at != u32::MAX).any(|&(_, at)| {
-            let i = tree.points()[at as usize].number as usize;
+        let near: [u32; 40] = tree.nearest_places_to(*place);
+        near.iter().filter_map(|at| tree.points().get(*at as usize)).any(|point| {
+            let i = point.number as usize;
             let n = normals[i].as_dvec3();
             // Where the line along the normal meets the disk's plane.
             let slope = n.dot(*normal);

@@ -72,3 +72,42 @@ fn many_points_on_several_threads_and_all_at_one_place() {
     let heap = vec![DVec3::splat(0.1); count];
     assert!(distances(&heap).into_iter().all(|found| found == [0.0; NEIGHBORS]));
 }
+
+/// Also where many are at one distance, far away, or not at all.
+#[test]
+fn the_nearest_places_are_those_of_brute_force_to_a_millionth() {
+    let mut random = SplitMix(7);
+    let mut place = move || DVec3::new(random.unit(), random.unit(), random.unit());
+    for count in [1, 12, LEAF, 50, 2000] {
+        let space: Vec<_> = (0..count).map(|_| place()).collect();
+        let grid = space.iter().map(|p| (*p * 4.0).floor()).collect();
+        let [tiny, huge] = [1e-140, 1e150].map(|scale| space.iter().map(|p| *p * scale).collect());
+        for positions in [space, grid, tiny, huge] {
+            let numbered =
+                (0..).zip(&positions).map(|(number, &position): (u32, _)| Point { position, number });
+            let tree = Tree::new(numbered.collect());
+            for target in 0..count {
+                let place = tree.points()[target].position;
+                let mut all: Vec<f64> =
+                    tree.points().iter().map(|p| p.position.distance_squared(place)).collect();
+                all.sort_by(f64::total_cmp);
+                let [others, any]: [[u32; 12]; 2] =
+                    [tree.nearest_places(target), tree.nearest_places_to(place)];
+                for (found, truth) in [(others, &all[1..]), (any, &all)] {
+                    let mut distinct: Vec<u32> = found.into_iter().filter(|at| *at != u32::MAX).collect();
+                    assert_eq!(distinct.len(), truth.len().min(12));
+                    for (at, truth) in distinct.iter().zip(truth) {
+                        let squared = tree.points()[*at as usize].position.distance_squared(place);
+                        assert!((squared - truth).abs() <= 1e-6 * truth, "{squared} {truth}, {count}");
+                    }
+                    distinct.sort_unstable();
+                    distinct.dedup();
+                    assert_eq!(distinct.len(), truth.len().min(12), "each once");
+                }
+                assert!(!others.contains(&(target as u32)));
+            }
+        }
+    }
+    let none = Tree::new(vec![Point { position: DVec3::NAN, number: 0 }; 3]);
+    assert_eq!(none.nearest_places::<2>(0), [u32::MAX; 2]);
+}
