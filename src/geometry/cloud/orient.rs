@@ -56,10 +56,14 @@ impl Sets {
 
 /// The cost of handing the side on along an edge, in 256 steps, and whether the normals are on different sides.
 fn edge(along: DVec3, a: DVec3, b: DVec3) -> (u8, bool) {
-    let Some(along) = along.try_normalize() else { return (u8::MAX, a.dot(b) < 0.0) };
+    // Of no length, or none that has a reciprocal.
+    let per_squared = along.length_squared().recip();
+    if !per_squared.is_normal() {
+        return (u8::MAX, a.dot(b) < 0.0);
+    }
     let (out_a, out_b) = (along.dot(a), along.dot(b));
-    let agreement = (a - 2.0 * out_a * along).dot(b);
-    let in_planes = (1.0 - out_a * out_a) * (1.0 - out_b * out_b);
+    let agreement = a.dot(b) - 2.0 * out_a * out_b * per_squared;
+    let in_planes = (1.0 - out_a * out_a * per_squared) * (1.0 - out_b * out_b * per_squared);
     let cost = (1.0 - agreement.abs() * in_planes).clamp(0.0, 1.0);
     // The root spreads the small costs, of which most are.
     ((255.0 * cost.sqrt()) as u8, agreement < 0.0)
