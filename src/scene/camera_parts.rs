@@ -105,14 +105,21 @@ impl CameraParts {
         Ok(camera)
     }
 
-    /// These parts with a direction that was found to be up; the eye, if nothing is said of its height, sees things from above by 30°,
-    /// because what lies on the ground is seen from there.
+    /// These parts with a direction that was found to be up of a scene of an extent along x, y and z. The eye, if nothing is said of its height,
+    /// sees from above what lies on the ground: by 30° what is at most half as high as wide. What stands, as high as wide or higher, it sees
+    /// from the front, and what is between by an angle in between.
     #[must_use]
-    pub fn with_found_up(self, up: DVec3) -> Self {
-        let level = Self { up: Some(up), ..self };
+    pub fn with_found_up(self, up: DVec3, extent: DVec3) -> Self {
+        let found = Self { up: Some(up), ..self };
         match up.try_normalize().filter(|up| up.distance(DVec3::Y) > 1e-9) {
-            Some(_) => Self { elevation_rad: self.elevation_rad.or(Some(RAISED_RAD)), ..level },
-            None => level,
+            Some(up) => {
+                let height = extent.dot(up.abs());
+                let width = (extent - height * up.abs()).max_element();
+                let lies = (2.0 * (1.0 - height / width)).clamp(0.0, 1.0);
+                let raised_rad = if lies > 0.0 { lies * RAISED_RAD } else { 0.0 };
+                Self { elevation_rad: self.elevation_rad.or(Some(raised_rad)), ..found }
+            }
+            None => found,
         }
     }
 
@@ -184,12 +191,19 @@ mod tests {
         let rolled =
             CameraParts { up: Some(DVec3::new(1.0, 1.0, 0.0)), ..none }.camera(&ball, [8, 8]).unwrap();
         assert_eq!(rolled.eye, fit.eye);
-        // One that was found to be z up, from above.
-        let found = none.with_found_up(DVec3::Z).camera(&ball, [8, 8]).unwrap();
-        let toward = (found.eye - found.target).normalize();
-        assert!(toward.distance(DVec3::new(0.0, -0.75_f64.sqrt(), 0.5)) < 1e-12, "{toward}");
-        assert_eq!(none.with_found_up(DVec3::Y).camera(&ball, [8, 8]).unwrap(), fit);
-        assert_eq!(only_eye.with_found_up(DVec3::Z).camera(&ball, [8, 8]).unwrap().eye, DVec3::ONE);
+        // One that was found to be z up, from above if it lies.
+        for (height, degrees) in
+            [(0.0, 30.0), (2.0, 30.0), (3.0, 15.0), (4.0, 0.0), (9.0, 0.0), (f64::NAN, 0.0)]
+        {
+            let parts = none.with_found_up(DVec3::Z, DVec3::new(4.0, 2.0, height));
+            let found = parts.camera(&ball, [8, 8]).unwrap();
+            let toward = (found.eye - found.target).normalize();
+            let (sin, cos) = f64::to_radians(degrees).sin_cos();
+            assert!(toward.distance(DVec3::new(0.0, -cos, sin)) < 1e-12, "{toward}");
+        }
+        assert_eq!(none.with_found_up(DVec3::Y, DVec3::ONE).camera(&ball, [8, 8]).unwrap(), fit);
+        let eye_given = only_eye.with_found_up(DVec3::Z, DVec3::ONE).camera(&ball, [8, 8]).unwrap();
+        assert_eq!(eye_given.eye, DVec3::ONE);
         // From a corner, if nothing is said of it.
         assert_eq!(
             (none.front(), only_eye.front(), none.from_corner().front()),
@@ -210,7 +224,7 @@ mod tests {
         assert_eq!((camera.eye - camera.target).normalize().round(), DVec3::X);
         let camera = CameraParts { up: Some(DVec3::Z), ..top }.camera(&ball, [8, 8]).unwrap();
         assert_eq!(((camera.eye - camera.target).normalize().round(), camera.up), (DVec3::Z, DVec3::Y));
-        assert_eq!(right.with_found_up(DVec3::Z).elevation_rad, Some(0.0));
+        assert_eq!(right.with_found_up(DVec3::Z, DVec3::ONE).elevation_rad, Some(0.0));
         assert_eq!((right.or(only_eye).eye, only_eye.or(right).azimuth_rad), (None, None));
         // What is looked at is a part of the scene.
         let part = Ball { center: DVec3::X, radius: 0.25 };

@@ -15,7 +15,7 @@ use surfel::{
     prepare::PreparedScene,
     renderer::Headless,
     report::{InputReport, Step},
-    scene::{Ball, CameraParts, Light, Mesh, Object, Scene},
+    scene::{Ball, Bounds, CameraParts, Light, Mesh, Object, Scene},
 };
 
 use crate::{
@@ -51,6 +51,14 @@ impl Loaded {
     /// Whether each view reads something of its own.
     pub fn is_read_by_view(&self) -> bool {
         !self.hierarchies.is_empty() || !self.octrees.files.is_empty()
+    }
+
+    /// The extent of the whole along x, y and z.
+    pub fn extent(&self) -> DVec3 {
+        let of_files = self.hierarchies.iter().map(LevelsFile::bounds);
+        let of_octrees = self.octrees.files.iter().map(|file| file.bounds());
+        let all = self.scene.bounds().into_iter().chain(of_files).chain(of_octrees);
+        all.reduce(Bounds::union).map_or(DVec3::ZERO, |bounds| bounds.max - bounds.min)
     }
 }
 

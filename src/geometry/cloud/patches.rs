@@ -35,7 +35,8 @@ const RIDGE: f64 = 0.03;
 /// Patches whose squared distance is so many times the nearest's tell nothing.
 const FARTHEST: f64 = 6.0;
 
-/// About so many points look for patches together: the 12 nearest to their middle.
+/// About so many points look for patches together: the 12 nearest to their middle. A point that is far from all of these, as some in a corner of a
+/// room where a group has points of two walls, looks for its own.
 const GROUP: usize = 32;
 
 /// The tree of every so manieth point.
@@ -88,8 +89,11 @@ pub(super) fn normals(tree: &Tree, coarse: &Tree, mixed: f64) -> Vec<DVec3> {
     let of_group = |group: Range<usize>| {
         let points = &tree.points()[group];
         let middle = points.iter().map(|point| point.position).sum::<DVec3>() / points.len() as f64;
-        let patches: Vec<&Patch> = near(&middles, middle, &patches).collect();
-        points.iter().map(|point| normal(point, &patches)).collect::<Vec<_>>()
+        let of_group: Vec<&Patch> = near(&middles, middle, &patches).collect();
+        let alone =
+            |place: DVec3| normal(place, &near(&middles, place, &patches).collect::<Vec<_>>(), f64::INFINITY);
+        let one = |point: &Point| normal(point.position, &of_group, 1.0).or_else(|| alone(point.position));
+        points.iter().map(|point| one(point).unwrap_or(DVec3::Z)).collect::<Vec<_>>()
     };
     tree.groups(GROUP).into_par_iter().flat_map_iter(of_group).collect()
 }
@@ -100,22 +104,24 @@ fn near<'a, T>(tree: &Tree, place: DVec3, all: &'a [T]) -> impl Iterator<Item = 
     found.into_iter().filter_map(|at| all.get(at as usize))
 }
 
-/// What the patches near a point tell.
-fn normal(point: &Point, patches: &[&Patch]) -> DVec3 {
+/// What the patches near a place tell; `None` where none is so near, in parts of its reach, that it knows the place.
+fn normal(place: DVec3, patches: &[&Patch], farthest: f64) -> Option<DVec3> {
     let mut away = [f64::INFINITY; NEIGHBORS];
-    away.iter_mut().zip(patches).for_each(|(away, patch)| *away = patch.facet.away(point.position));
-    let nearest = (0..patches.len()).min_by(|&a, &b| away[a].total_cmp(&away[b]));
-    let Some(nearest) = nearest else { return DVec3::Z };
-    let side = patches[nearest].normal_at(point.position);
+    away.iter_mut().zip(patches).for_each(|(away, patch)| *away = patch.facet.away(place));
+    let nearest = (0..patches.len()).min_by(|&a, &b| away[a].total_cmp(&away[b]))?;
+    if away[nearest] > (farthest * patches[nearest].reach).powi(2) {
+        return None;
+    }
+    let side = patches[nearest].normal_at(place);
     let mut sum = side;
     for (i, patch) in patches.iter().enumerate().filter(|(i, _)| *i != nearest) {
         let weight = (1.0 - (away[i] - away[nearest]) / ((FARTHEST - 1.0) * away[nearest])).max(0.0).powi(2);
         if weight > 0.0 {
-            let normal = patch.normal_at(point.position);
+            let normal = patch.normal_at(place);
             sum += normal * weight.copysign(normal.dot(side));
         }
     }
-    sum.try_normalize().unwrap_or(side)
+    Some(sum.try_normalize().unwrap_or(side))
 }
 
 impl Facet {
@@ -195,6 +201,31 @@ mod tests {
                 _ => assert!(angle < 6.0, "{angle}° at {point:?}"),
             }
         }
+    }
+
+    /// A floor of 6 by 5 and two walls that meet in a corner: some groups have points of more than one of them.
+    #[test]
+    fn no_point_of_a_wall_has_the_normal_of_the_floor() {
+        let mut random = SplitMix(8);
+        let on_walls = |i: u32| {
+            let [along, up, noise] = [0; 3].map(|_| random.unit());
+            match i % 4 {
+                0 | 1 => DVec3::new(6.0 * along, 5.0 * up, 0.02 * noise),
+                2 => DVec3::new(6.0 * along, 0.02 * noise, 2.8 * up),
+                _ => DVec3::new(0.02 * noise, 5.0 * along, 2.8 * up),
+            }
+        };
+        let tree = tree((0..60_000).map(on_walls));
+        let mut walls = 0;
+        for (point, normal) in tree.points().iter().zip(normals(&tree, &tree, 0.25)) {
+            let inside = [0, 1, 2].map(|axis| point.position[axis] > 0.3);
+            let Some(wall) = inside.iter().position(|inside| !inside) else { continue };
+            if inside.iter().filter(|inside| **inside).count() == 2 {
+                walls += 1;
+                assert!(normal[wall].abs() > 0.95, "{normal} at {}", point.position);
+            }
+        }
+        assert!(walls > 40_000);
     }
 
     #[test]

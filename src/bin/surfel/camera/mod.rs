@@ -156,7 +156,7 @@ fn with_up(parts: CameraParts, loaded: &Loaded) -> CameraParts {
         }
         return parts;
     };
-    let with = parts.with_found_up(found.direction);
+    let with = parts.with_found_up(found.direction, loaded.extent());
     match with.camera(&loaded.ball, [1, 1]) {
         Ok(_) => {
             up::tell(found);
