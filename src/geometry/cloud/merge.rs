@@ -82,9 +82,34 @@ fn sum_normal(normals: &[Vec3], group: &[u32]) -> Vec3 {
     }
 }
 
+/// The step between numbers of 32 bits at points that have such coordinates, if their neighbors are no farther than a few steps: points were
+/// moved to places that are such numbers then, many to one. Maps' coordinates in a format of 32 bits do that.
+pub(super) fn coarse_step(positions: &[DVec3], spreads: &[f64]) -> Option<f64> {
+    let largest = positions.par_iter().map(|place| place.abs().max_element()).reduce(|| 0.0, f64::max);
+    let step = f64::from((largest as f32).next_up()) - f64::from(largest as f32);
+    let spread = spreads.iter().sum::<f64>() / spreads.len() as f64;
+    let is_coarse = spread > 0.0 && spread <= FEW_STEPS * step;
+    (is_coarse && positions.par_iter().all(|place| place.as_vec3().as_dvec3() == *place)).then_some(step)
+}
+
+/// Points of maps are centimeters apart or more, and northings have steps of half a meter.
+const FEW_STEPS: f64 = 4.0;
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Steps are 0.5 from 2²² = 4 194 304 on.
+    #[test]
+    fn coordinates_of_32_bits_far_away_are_found_coarse() {
+        let grid = |apart: f64| -> Vec<DVec3> {
+            (0..100).map(|i| DVec3::new(f64::from(i) * apart, 4_600_000.0 + f64::from(i), 3.0)).collect()
+        };
+        assert_eq!(coarse_step(&grid(0.125), &[1.0; 100]), Some(0.5));
+        assert_eq!(coarse_step(&grid(0.125), &[3.0; 100]), None, "far enough apart");
+        assert_eq!(coarse_step(&grid(0.1), &[1.0; 100]), None, "of 64 bits");
+        assert_eq!((coarse_step(&[], &[]), coarse_step(&[DVec3::ONE], &[0.0])), (None, None));
+    }
 
     #[test]
     fn equal_places_merge_whatever_the_sign_of_zero() {

@@ -29,7 +29,7 @@ impl Sides {
 }
 
 /// The facts found on the way from points to splats.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CloudReport {
     /// Points in the file.
     pub points: usize,
@@ -51,6 +51,8 @@ pub struct CloudReport {
     pub sizes_ignored: usize,
     /// Disks over 4 times as large as the median of those around them, which they got instead.
     pub limited: usize,
+    /// How far apart two numbers of 32 bits are at the points, where that is about as far as the points are apart.
+    pub coarse_step: Option<f64>,
 }
 
 impl CloudReport {
@@ -108,6 +110,13 @@ impl fmt::Display for CloudReport {
             told.map(|(count, one, many, done)| format!("{} {done}", number(count, one, many))).collect();
         if !told.is_empty() {
             write!(f, "; {}", told.join(", "))?;
+        }
+        if let Some(step) = self.coarse_step {
+            let step = (1e3 * step).round() / 1e3;
+            write!(
+                f,
+                "; numbers of 32 bits tell places to {step} here: export 64 bits, or from a nearer origin"
+            )?;
         }
         Ok(())
     }
