@@ -147,7 +147,7 @@ fn each_part(mut stream: impl Read, packing: Packing, path: &Path, take: &mut Ta
     allow(dead_code, reason = "nothing can be unpacked")
 )]
 fn damaged(packing: Packing, path: &Path, why: &str) -> Error {
-    Error::input(path, "", format!("damaged {}: {why}", packing.name()))
+    Error::input(path, "", format!("damaged {}: {why}; expected a whole file", packing.name()))
 }
 
 #[cfg(not(all(feature = "gzip", feature = "zstd")))]

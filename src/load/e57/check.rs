@@ -17,7 +17,7 @@ const MOST_FIELDS: usize = 1024;
 pub(super) fn header(input: &Input<'_>) -> Result<()> {
     let length = input.bytes.get(XML_LENGTH_AT..).and_then(|rest| rest.first_chunk::<8>());
     let Some(length) = length.map(|length| u64::from_le_bytes(*length)) else {
-        return Err(input.fault("header", "the file ends within it"));
+        return Err(input.fault("header", "the file ends within it; expected 48 bytes"));
     };
     let most = MOST_XML_BYTES.min(input.bytes.len() as u64);
     match length <= most {

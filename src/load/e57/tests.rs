@@ -150,7 +150,7 @@ fn counts_beyond_the_file_are_refused_before_memory_is_taken() {
     let mut long = whole.clone();
     long[32..40].fill(0xff);
     refuses(&repaired(long), "header: XML of 18446744073709551615 bytes; expected at most ");
-    refuses(&whole[..30], "header: the file ends within it");
+    refuses(&whole[..30], "header: the file ends within it; expected 48 bytes");
     let mut wrong = whole.clone();
     wrong[60] ^= 1;
     refuses(&wrong, "");

@@ -36,7 +36,7 @@ pub(super) fn split<'a>(input: &Input<'a>) -> Result<Parts<'a>> {
         (Some(version), Some(_)) => {
             return Err(input.fault("header", format!("GLB of version {version}; expected 2")));
         }
-        _ => return Err(input.fault("header", "the file ends within it")),
+        _ => return Err(input.fault("header", "the file ends within it; expected 12 bytes")),
     }
     let chunk = |at: usize| -> Option<(u32, &'a [u8])> {
         let (length, kind) = (word(at)? as usize, word(at.checked_add(4)?)?);

@@ -1,5 +1,7 @@
 //! The header of a LAS file, held against the file.
 
+use std::io;
+
 use las::{Transform, Vector, point::Format, raw};
 use laz::{LazItemRecordBuilder, LazVlr};
 
@@ -21,11 +23,21 @@ pub(in crate::load) struct Header {
     pub laz: Option<LazVlr>,
 }
 
+/// What a header has at least.
+const FEWEST_BYTES: &str = "expected at least 227, 375 of version 1.4";
+
 /// The part of a variable length record before its data.
 const VLR_HEADER_BYTES: usize = 54;
 
 pub(in crate::load) fn read(input: &Input<'_>) -> Result<Header> {
-    let raw = raw::Header::read_from(input.bytes).map_err(|e| input.fault("header", one_line(e)))?;
+    let raw = raw::Header::read_from(input.bytes).map_err(|e| match e {
+        las::Error::Io(e) if e.kind() == io::ErrorKind::UnexpectedEof => {
+            let problem =
+                format!("the file ends within it, after {} bytes; {FEWEST_BYTES}", input.bytes.len());
+            input.fault("header", problem)
+        }
+        e => input.fault("header", one_line(e)),
+    })?;
     let number = raw.point_data_record_format & 0x3f;
     let mut format =
         Format::new(raw.point_data_record_format).map_err(|e| input.fault("header", one_line(e)))?;

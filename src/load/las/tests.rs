@@ -150,6 +150,8 @@ fn files_cut_anywhere_are_refused() {
         for end in 0..whole.len() {
             let cut = of_bytes("a.las", &whole[..end], parse);
             assert!(cut.is_err(), "format {format} cut at {end} of {}", whole.len());
+            let told = cut.err().map(|e| e.to_string()).unwrap_or_default();
+            assert!(told.contains("expected") || told.contains(" of ") || end > 227, "{told}, cut at {end}");
         }
     }
 }

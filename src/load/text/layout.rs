@@ -54,8 +54,9 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
             continue;
         }
         let writing = Writing::of(line);
-        let first = writing.fields(line).next().unwrap_or_default();
         let is_alone = writing.fields(line).nth(1).is_none();
+        let place = if is_alone { 0 } else { first_read(input, header, writing) };
+        let first = writing.fields(line).nth(place).unwrap_or_default();
         match (writing.number(first), is_alone) {
             (Some(_), true) if count.is_none() => count = Some((at, line)),
             (Some(_), true) => {
@@ -90,6 +91,34 @@ pub(super) fn comment_text(line: &[u8]) -> Option<&[u8]> {
     line.strip_prefix(b"#").or_else(|| line.strip_prefix(b"//"))
 }
 
+/// The place in a row of the first number that is read; what stands before it, a time or a name, may be anything.
+fn first_read(input: &Input<'_>, header: Option<(usize, &[u8])>, writing: Writing) -> usize {
+    let named = || header.map(|(_, line)| of_header(line, writing).0);
+    let columns = input.options.columns.as_ref().map(|given| given.columns().to_vec()).or_else(named);
+    let is_read = |column: &Column| *column != Column::Other;
+    columns.and_then(|columns| columns.iter().position(is_read)).unwrap_or(0)
+}
+
+/// The columns that a line names, and what those are called that are not read.
+fn named(line: &[u8]) -> (Vec<Column>, Vec<String>) {
+    let text = String::from_utf8_lossy(line);
+    let names = text.split([',', ';', '\t', ' ']).map(str::trim).filter(|name| !name.is_empty());
+    let columns: Vec<(Column, String)> =
+        names.map(|name| (Column::of_header(name), shown(name.as_bytes()))).collect();
+    let others = columns.iter().filter(|(column, _)| *column == Column::Other);
+    let others = others.map(|(_, name)| format!("column '{name}'")).collect();
+    (columns.into_iter().map(|(column, _)| column).collect(), others)
+}
+
+/// As [`named`], of a header: blanks may be part of names where something else stands between them.
+fn of_header(line: &[u8], writing: Writing) -> (Vec<Column>, Vec<String>) {
+    let words: Vec<Vec<u8>> = Writing { decimal_comma: false, ..writing }
+        .fields(line)
+        .map(|name| name.iter().map(|b| if *b == b' ' { b'_' } else { *b }).collect())
+        .collect();
+    named(&words.join(&b' '))
+}
+
 fn columns(
     input: &Input<'_>,
     writing: Writing,
@@ -105,22 +134,8 @@ fn columns(
         // Those that the user names `-` are ignored by their own word.
         return Ok((given.clone(), vec![format!("column {}", given.columns().len() + 1); behind.min(1)]));
     }
-    let named = |line: &[u8]| {
-        let text = String::from_utf8_lossy(line);
-        let names = text.split([',', ';', '\t', ' ']).map(str::trim).filter(|name| !name.is_empty());
-        let columns: Vec<(Column, String)> =
-            names.map(|name| (Column::of_header(name), shown(name.as_bytes()))).collect();
-        let others = columns.iter().filter(|(column, _)| *column == Column::Other);
-        let others = others.map(|(_, name)| format!("column '{name}'")).collect();
-        (columns.into_iter().map(|(column, _)| column).collect::<Vec<_>>(), others)
-    };
     if let Some((at, line)) = header {
-        // Blanks may be part of names where something else stands between them.
-        let words: Vec<Vec<u8>> = Writing { decimal_comma: false, ..writing }
-            .fields(line)
-            .map(|name| name.iter().map(|b| if *b == b' ' { b'_' } else { *b }).collect())
-            .collect();
-        let (columns, others) = named(&words.join(&b' '));
+        let (columns, others) = of_header(line, writing);
         let columns = Columns::new(columns).map_err(|problem| (at, format!("header: {problem}")))?;
         return Ok((columns, others));
     }

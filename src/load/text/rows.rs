@@ -92,9 +92,9 @@ impl Rows {
         let mut fields = layout.writing.fields(line);
         for (i, slot) in slots.iter().enumerate() {
             let Some(word) = fields.next() else {
-                if i == 1 && layout.counted {
-                    let (before, [count, ..]) = (self.positions.len() as u64, values);
-                    self.counts.push((at, count, before));
+                let count = if i == 1 && layout.counted { layout.writing.number(line) } else { None };
+                if let Some(count) = count {
+                    self.counts.push((at, count, self.positions.len() as u64));
                     return Ok(());
                 }
                 let s = if i == 1 { "" } else { "s" };

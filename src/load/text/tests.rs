@@ -88,6 +88,24 @@ fn the_user_may_name_the_columns() {
     assert_eq!(short.to_string(), "a.xyz: line 2: 3 numbers in a row; expected 4");
 }
 
+/// Times and names of classes, before the numbers and between them.
+#[test]
+fn columns_that_are_not_read_may_be_words() {
+    let times = "time,x,y,class,z\n2024-01-01T00:00:00,1,2,tree,3\n,4,5,,6\n";
+    let (points, loaded) = points(times);
+    assert_eq!(points.positions, [DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 5.0, 6.0)]);
+    assert_eq!(notes(&loaded), ["2 columns (column 'time', column 'class') ignored"]);
+    for text in
+        ["p1 1 2 3\np2 4 5 6\n", "name east north up\np1 1 2 3\np2 4 5 6\n", "2\np1 1 2 3\np2 4 5 6\n"]
+    {
+        let named = with_columns("-,x,y,z", text).unwrap();
+        let Model::Points(named) = &named.model else { panic!("no points") };
+        assert_eq!(named.positions, points.positions);
+    }
+    refuses("t,x,y,z\na,b,2,3\n", "line 2: 'b'; expected a number");
+    refuses("x,y,z,t\n1,2,3,a\n4,5,c,d\n", "line 3: 'c' in column 3; expected a number");
+}
+
 #[test]
 fn pts_files_count_their_rows_a_scan() {
     let (points, loaded) = points("2\n1 2 3 -2048 255 0 0\n4 5 6 2047 0 0 0\n1\n7 8 9 0 0 0 0\n");
