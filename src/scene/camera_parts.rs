@@ -105,22 +105,17 @@ impl CameraParts {
         Ok(camera)
     }
 
-    /// These parts with a direction that was found to be up of a scene of an extent along x, y and z. The eye, if nothing is said of its height,
-    /// sees from above what lies on the ground: by 30° what is at most half as high as wide. What stands, as high as wide or higher, it sees
-    /// from the front, and what is between by an angle in between.
+    /// These parts with an eye, if nothing is said of its height, that sees from above what lies on the ground of a scene of an extent along x,
+    /// y and z: by 30° what is at most half as high as wide. What stands, as high as wide or higher, it sees from the front, and what is
+    /// between by an angle in between.
     #[must_use]
-    pub fn with_found_up(self, up: DVec3, extent: DVec3) -> Self {
-        let found = Self { up: Some(up), ..self };
-        match up.try_normalize().filter(|up| up.distance(DVec3::Y) > 1e-9) {
-            Some(up) => {
-                let height = extent.dot(up.abs());
-                let width = (extent - height * up.abs()).max_element();
-                let lies = (2.0 * (1.0 - height / width)).clamp(0.0, 1.0);
-                let raised_rad = if lies > 0.0 { lies * RAISED_RAD } else { 0.0 };
-                Self { elevation_rad: self.elevation_rad.or(Some(raised_rad)), ..found }
-            }
-            None => found,
-        }
+    pub fn from_above(self, extent: DVec3) -> Self {
+        let up = self.up.and_then(DVec3::try_normalize).unwrap_or(DVec3::Y).abs();
+        let height = extent.dot(up);
+        let width = (extent - height * up).max_element();
+        let lies = (2.0 * (1.0 - height / width)).clamp(0.0, 1.0);
+        let raised_rad = (lies > 0.0).then_some(lies * RAISED_RAD);
+        Self { elevation_rad: self.elevation_rad.or(raised_rad), ..self }
     }
 
     /// The unit direction from the target to the eye, if nothing is said of it: from the front, level.
@@ -191,19 +186,22 @@ mod tests {
         let rolled =
             CameraParts { up: Some(DVec3::new(1.0, 1.0, 0.0)), ..none }.camera(&ball, [8, 8]).unwrap();
         assert_eq!(rolled.eye, fit.eye);
-        // One that was found to be z up, from above if it lies.
+        // What lies on the ground, from above.
         for (height, degrees) in
             [(0.0, 30.0), (2.0, 30.0), (3.0, 15.0), (4.0, 0.0), (9.0, 0.0), (f64::NAN, 0.0)]
         {
-            let parts = none.with_found_up(DVec3::Z, DVec3::new(4.0, 2.0, height));
+            let parts = CameraParts { up: Some(DVec3::Z), ..none }.from_above(DVec3::new(4.0, 2.0, height));
             let found = parts.camera(&ball, [8, 8]).unwrap();
             let toward = (found.eye - found.target).normalize();
             let (sin, cos) = f64::to_radians(degrees).sin_cos();
             assert!(toward.distance(DVec3::new(0.0, -cos, sin)) < 1e-12, "{toward}");
         }
-        assert_eq!(none.with_found_up(DVec3::Y, DVec3::ONE).camera(&ball, [8, 8]).unwrap(), fit);
-        let eye_given = only_eye.with_found_up(DVec3::Z, DVec3::ONE).camera(&ball, [8, 8]).unwrap();
-        assert_eq!(eye_given.eye, DVec3::ONE);
+        let lies = DVec3::new(4.0, 1.0, 1.0);
+        assert_eq!(
+            (none.from_above(lies).elevation_rad, none.from_above(DVec3::ONE)),
+            (Some(RAISED_RAD), none)
+        );
+        assert_eq!(only_eye.from_above(lies).camera(&ball, [8, 8]).unwrap().eye, DVec3::ONE);
         // From a corner, if nothing is said of it.
         assert_eq!(
             (none.front(), only_eye.front(), none.from_corner().front()),
@@ -224,7 +222,7 @@ mod tests {
         assert_eq!((camera.eye - camera.target).normalize().round(), DVec3::X);
         let camera = CameraParts { up: Some(DVec3::Z), ..top }.camera(&ball, [8, 8]).unwrap();
         assert_eq!(((camera.eye - camera.target).normalize().round(), camera.up), (DVec3::Z, DVec3::Y));
-        assert_eq!(right.with_found_up(DVec3::Z, DVec3::ONE).elevation_rad, Some(0.0));
+        assert_eq!(right.from_above(lies).elevation_rad, Some(0.0));
         assert_eq!((right.or(only_eye).eye, only_eye.or(right).azimuth_rad), (None, None));
         // What is looked at is a part of the scene.
         let part = Ball { center: DVec3::X, radius: 0.25 };

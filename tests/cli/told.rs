@@ -118,6 +118,14 @@ fn sides_of_normals_and_a_moved_origin_are_told() {
         assert!(run.stderr.contains("from 12 neighbors each, turned to one side\n"), "{}", run.stderr);
         assert_eq!(run.stderr.contains("\nthe origin is moved to 5000"), is_moved, "{}", run.stderr);
     }
+    // But for places that are no numbers of 32 bits, as a map's are not.
+    let coarse: String = (0..400)
+        .map(|i| format!("{} {} 3\n", 0.25 * f64::from(i % 20), 4_600_000.0 + 0.5 * f64::from(i / 20)))
+        .collect();
+    folder.write("coarse.xyz", coarse + "0 4600000 3\n");
+    let run = done(&folder, &[&["render", "coarse.xyz"][..], &SIZE].concat());
+    let words = "1 duplicate merged; numbers of 32 bits tell places to 0.5 here: export 64 bits, or from a nearer origin";
+    assert!(run.stderr.contains(words), "{}", run.stderr);
     let seen = "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 400\nHEIGHT 1\n\
         VIEWPOINT 10 10 30 1 0 0 0\nPOINTS 400\nDATA ascii\n";
     folder.write("seen.pcd", seen.to_owned() + &rows(grid(20, 0.0)));

@@ -83,7 +83,7 @@ fn sum_normal(normals: &[Vec3], group: &[u32]) -> Vec3 {
 }
 
 /// The step between numbers of 32 bits at points that have such coordinates, if their neighbors are no farther than a few steps: points were
-/// moved to places that are such numbers then, many to one. Maps' coordinates in a format of 32 bits do that.
+/// moved to places that are such numbers then, some to one. Maps' coordinates in a format of 32 bits do that.
 pub(super) fn coarse_step(positions: &[DVec3], spreads: &[f64]) -> Option<f64> {
     let largest = positions.par_iter().map(|place| place.abs().max_element()).reduce(|| 0.0, f64::max);
     let step = f64::from((largest as f32).next_up()) - f64::from(largest as f32);

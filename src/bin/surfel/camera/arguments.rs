@@ -23,8 +23,8 @@ pub struct CameraArguments {
     #[arg(long, value_name = "FILE.json", conflicts_with_all = PARTS)]
     pub camera: Option<PathBuf>,
 
-    /// The eye [default: on +z from the target, so far that the scene fits; on -y where z is up, and above it where nobody
-    /// said that z is; 30 degrees to the right of it and 20 above where the front of something closed is one flat side]
+    /// The eye [default: on +z from the target, so far that the scene fits; on -y where z is up, and above it where a file or its shape
+    /// says what is up and it is lower than wide; 30 degrees to the right of it and 20 above where the front of something closed is one flat side]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true, conflicts_with_all = ["view", "azimuth", "elevation"])]
     pub eye: Option<[f64; 3]>,
 
@@ -37,7 +37,8 @@ pub struct CameraArguments {
     #[arg(long, value_name = "DEG", value_parser = parse::number("degrees", -360.0..=360.0), allow_hyphen_values = true)]
     pub azimuth: Option<f64>,
 
-    /// The eye's height above the horizon in degrees, 90 above, -90 below [default: 0; 30 where nobody said that z is up]
+    /// The eye's height above the horizon in degrees, 90 above, -90 below [default: 0; where a
+    /// file or its shape says what is up, up to 30 for what is lower than wide]
     #[arg(long, value_name = "DEG", value_parser = parse::number("degrees", -90.0..=90.0), allow_hyphen_values = true)]
     pub elevation: Option<f64>,
 

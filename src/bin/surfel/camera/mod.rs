@@ -134,36 +134,34 @@ const MOST_NAMES: usize = 8;
 
 /// With what is up, and from where it is seen, as the scene's shape has it where nothing is said.
 fn as_shaped(parts: CameraParts, loaded: &Loaded) -> CameraParts {
-    let parts = with_up(parts, loaded);
+    let up = found_up(parts, loaded);
+    let parts = CameraParts { up: parts.up.or(up), ..parts };
     match parts.front() {
         Some(front) if is_flat_in_front(&loaded.scene, front) => {
             console::say("seen from a corner, because its front is one flat side; --view front if not");
             parts.from_corner()
         }
+        _ if up.is_some() => parts.from_above(loaded.extent()),
         _ => parts,
     }
 }
 
-/// With the direction that files or shapes tell, where none is given. An eye that is given and looks along it has no use for it.
-fn with_up(parts: CameraParts, loaded: &Loaded) -> CameraParts {
+/// The direction that files or shapes tell to be up, where none is given. An eye that is given and looks along it has no use for it.
+fn found_up(parts: CameraParts, loaded: &Loaded) -> Option<DVec3> {
     if parts.up.is_some() {
-        return parts;
+        return None;
     }
     let Some(found) = loaded.up.as_ref() else {
         let is_of_a_file = loaded.inputs.iter().any(|input| input.model.is_some());
         if is_of_a_file && may_lie_on_its_back(&loaded.scene) {
             up::doubt();
         }
-        return parts;
+        return None;
     };
-    let with = parts.with_found_up(found.direction, loaded.extent());
-    match with.camera(&loaded.ball, [1, 1]) {
-        Ok(_) => {
-            up::tell(found);
-            with
-        }
-        Err(_) => parts,
-    }
+    let with = CameraParts { up: Some(found.direction), ..parts };
+    with.camera(&loaded.ball, [1, 1]).ok()?;
+    up::tell(found);
+    Some(found.direction)
 }
 
 #[cfg(test)]
