@@ -135,3 +135,29 @@ pub fn points_far_away() -> Vec<(&'static str, Vec<u8>)> {
 pub fn meshes_far_away() -> Vec<(&'static str, Vec<u8>)> {
     meshes::files(FAR)
 }
+
+/// A file of points that says that z is up, with heights scaled.
+#[test]
+fn what_lies_is_seen_from_above_and_what_stands_from_the_front() {
+    let folder = Folder::new();
+    for (height, degrees) in [(0.25, 30.0), (0.75, 15.0), (1.5, 0.0)] {
+        let scaled = |point: points::Point| points::Point {
+            place: point.place * DVec3::new(1.0, 1.0, height),
+            ..point
+        };
+        let points: Vec<_> = points::ball(DVec3::ZERO).into_iter().map(scaled).collect();
+        folder.write("a.las", content(&points::files(&points), "a.las"));
+        let line = done(&folder, &["render", "a.las", "--size", "9x9", "--print-camera"]).stdout;
+        let [eye, target] = ["--eye", "--target"].map(|name| {
+            let word = line.split_whitespace().skip_while(|word| *word != name).nth(1).unwrap();
+            DVec3::from_slice(&word.split(',').map(|v| v.parse().unwrap()).collect::<Vec<f64>>())
+        });
+        let [right, back, up] = (eye - target).normalize().to_array();
+        let elevation = up.asin().to_degrees();
+        // Disks at the rim reach beyond the points.
+        assert!(
+            (elevation - degrees).abs() < 5.0 && right.abs() < 1e-9 && back < 0.0,
+            "{height}: {elevation}"
+        );
+    }
+}
