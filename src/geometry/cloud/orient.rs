@@ -9,6 +9,13 @@
 //!   above each other, too.
 //!
 //! The tree is found by Kruskal's algorithm on costs in 256 steps, and sets of points that know their side against the set's first.
+//!
+//! **Sheets.** Edges that cost more than [`SHEET_COST`] join no points, but the sheets that the others made: all between two of them vote,
+//! each with what the mirror tells over the fourth power of its length. Of two parallel sheets, h apart and one above the other, an edge
+//! to a point r beside the one below tells (r² − h²) / (r² + h²); the sum over all r of that by (r² + h²)⁻² is negative whatever the reach,
+//! so that they oppose as sides of a plate, although most edges may be slanted, and tell that they are one surface.
+
+use std::collections::BTreeMap;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -20,6 +27,12 @@ struct Sets(Vec<u32>);
 
 /// The length of the mean normal above which a surface is a sheet. That of half a ball is 1/2.
 const SHEET: f64 = 0.7;
+
+/// Below, the product of what the mirror tells and of how far an edge lies in both planes is more than a half.
+const SHEET_COST: usize = 180;
+
+/// So many points may be a sheet.
+const FEWEST_OF_SHEET: u32 = 100;
 
 /// The other side.
 const TURNED: u32 = 1 << 31;
@@ -54,16 +67,26 @@ impl Sets {
     }
 }
 
+/// What an edge tells of the sides of two normals: above zero the same, and how sure it is.
+#[derive(Clone, Copy)]
+struct Told {
+    agreement: f64,
+    in_planes: f64,
+}
+
+/// `None` of an edge that has no length, or none with a reciprocal.
+fn told(along: DVec3, a: DVec3, b: DVec3) -> Option<Told> {
+    let per_squared = along.length_squared().recip();
+    let (out_a, out_b) = (along.dot(a), along.dot(b));
+    per_squared.is_normal().then(|| Told {
+        agreement: a.dot(b) - 2.0 * out_a * out_b * per_squared,
+        in_planes: (1.0 - out_a * out_a * per_squared) * (1.0 - out_b * out_b * per_squared),
+    })
+}
+
 /// The cost of handing the side on along an edge, in 256 steps, and whether the normals are on different sides.
 fn edge(along: DVec3, a: DVec3, b: DVec3) -> (u8, bool) {
-    // Of no length, or none that has a reciprocal.
-    let per_squared = along.length_squared().recip();
-    if !per_squared.is_normal() {
-        return (u8::MAX, a.dot(b) < 0.0);
-    }
-    let (out_a, out_b) = (along.dot(a), along.dot(b));
-    let agreement = a.dot(b) - 2.0 * out_a * out_b * per_squared;
-    let in_planes = (1.0 - out_a * out_a * per_squared) * (1.0 - out_b * out_b * per_squared);
+    let Some(Told { agreement, in_planes }) = told(along, a, b) else { return (u8::MAX, a.dot(b) < 0.0) };
     let cost = (1.0 - agreement.abs() * in_planes).clamp(0.0, 1.0);
     // The root spreads the small costs, of which most are.
     ((255.0 * cost.sqrt()) as u8, agreement < 0.0)
@@ -82,7 +105,7 @@ pub(super) fn orient(
     areas: &[f64],
     normals: &mut [DVec3],
 ) {
-    let sets = spanning_tree(positions, neighbors, normals);
+    let sets = spanning_tree(positions, neighbors, areas, normals);
     #[derive(Clone, Copy, Default)]
     struct Sum {
         area: f64,
@@ -125,7 +148,12 @@ pub(super) fn orient(
 }
 
 /// Of each place the root of its tree, and its side against it in bit 31.
-fn spanning_tree(positions: &[DVec3], neighbors: &[[u32; NEIGHBORS]], normals: &[DVec3]) -> Vec<u32> {
+fn spanning_tree(
+    positions: &[DVec3],
+    neighbors: &[[u32; NEIGHBORS]],
+    areas: &[f64],
+    normals: &[DVec3],
+) -> Vec<u32> {
     // An edge that both ends know counts once.
     let counts =
         |i: usize, j: u32| j != u32::MAX && (i < j as usize || !neighbors[j as usize].contains(&(i as u32)));
@@ -154,8 +182,41 @@ fn spanning_tree(positions: &[DVec3], neighbors: &[[u32; NEIGHBORS]], normals: &
     }
     drop(costs);
     let mut sets = Sets((0..positions.len() as u32).collect());
-    for (a, b) in edges {
+    // Where a cost's edges begin has become where they end.
+    let (of_sheets, between) = edges.split_at(begins[SHEET_COST - 1]);
+    for &(a, b) in of_sheets {
         sets.join(a, b & !TURNED, b & TURNED != 0);
+    }
+    // Few points are no sheet, but noise: they join as points do.
+    let mut sizes = vec![0_u32; positions.len()];
+    (0..positions.len() as u32).for_each(|place| sizes[(sets.root(place) & !TURNED) as usize] += 1);
+    for &(a, b) in between {
+        let [low, high] = [a, b & !TURNED].map(|place| (sets.root(place) & !TURNED) as usize);
+        if low != high && sizes[low].min(sizes[high]) < FEWEST_OF_SHEET {
+            sizes[low.min(high)] += sizes[low.max(high)];
+            sets.join(a, b & !TURNED, b & TURNED != 0);
+        }
+    }
+    // Of two roots, how surely they are on one side.
+    let mut votes: BTreeMap<(u32, u32), f64> = BTreeMap::new();
+    for &(a, b) in between {
+        let (i, j) = (a as usize, (b & !TURNED) as usize);
+        let roots = [sets.root(a), sets.root(j as u32)];
+        let [low, high] = roots.map(|root| root & !TURNED);
+        if low == high {
+            continue;
+        }
+        let along = positions[j] - positions[i];
+        let agreement = told(along, normals[i], normals[j]).map_or(0.0, |told| told.agreement);
+        let weight = areas[i] * areas[j] / along.length_squared().powi(2);
+        let vote = if weight.is_finite() { weight * agreement } else { 0.0 };
+        let is_turned = (roots[0] ^ roots[1]) & TURNED != 0;
+        *votes.entry((low.min(high), low.max(high))).or_default() += if is_turned { -vote } else { vote };
+    }
+    let mut votes: Vec<_> = votes.into_iter().collect();
+    votes.sort_by(|(_, a), (_, b)| b.abs().total_cmp(&a.abs()));
+    for ((a, b), vote) in votes {
+        sets.join(a, b, vote < 0.0);
     }
     (0..positions.len() as u32).map(|place| sets.root(place)).collect()
 }
