@@ -94,9 +94,10 @@ pub(crate) fn likely_ends<'m>(
     whole: &TilePlan,
     most_bytes: u64,
 ) -> &'m [u32] {
+    let Some(rows) = seen.rows() else { return &[] };
     let costs = seen.costs(arena, |box_px| whole.bytes_of_one(box_px));
-    let (mut ends, mut begin) = (arena.growing(), whole.rows.start);
-    for end in whole.rows.start + 2..=whole.rows.end {
+    let (mut ends, mut begin) = (arena.growing(), rows.start);
+    for end in rows.start + 2..=rows.end {
         if cost_of_rows(whole, costs, begin..end) > most_bytes {
             begin = end - 1;
             ends.push(begin);
