@@ -1,5 +1,7 @@
 //! How large a splat's image can get: the host's proof that no point exceeds the device's cap.
 
+use glam::Vec4;
+
 /// The bounds of the splats of a chunk, seen from a camera; lengths in one unit.
 #[derive(Clone, Copy, Debug)]
 pub struct SizeBound {
@@ -71,6 +73,23 @@ pub fn box_within_px(bound: &SizeBound, radius: f64, most_x: f64) -> f64 {
     let splat_px = 2.0 * radius * (1.0 + most_x) * per_z * bound.focal_px;
     let filter_px = 2.0 * bound.filter_px * (1.0 + radius * per_z);
     1.01 * length(splat_px, filter_px) + 3.0
+}
+
+/// That bound in f32, four times, each with a smallest depth and a largest radius of its own; what f32 rounds is within the bound's hundredth.
+#[inline(always)]
+pub fn boxes_within_px(bound: &SizeBound, [nearest_z, radius, most_x]: [Vec4; 3]) -> Vec4 {
+    let (focal_px, filter_px) = (bound.focal_px as f32, bound.filter_px as f32);
+    let (splat_px, filter_px) = if bound.is_orthographic {
+        (2.0 * radius * focal_px, Vec4::splat(2.0 * filter_px))
+    } else {
+        let per_z = 1.0 / nearest_z;
+        (2.0 * radius * (1.0 + most_x) * per_z * focal_px, 2.0 * filter_px * (1.0 + radius * per_z))
+    };
+    let is_beyond = nearest_z.cmpgt(Vec4::splat(bound.near as f32));
+    let is_small = radius.cmple(LARGEST_RADIUS_RATIO as f32 * nearest_z);
+    let are_regular = if bound.is_orthographic { is_beyond } else { is_beyond & is_small };
+    let length = (splat_px * splat_px + filter_px * filter_px).sqrt();
+    Vec4::select(are_regular, 1.01 * length + 3.0, Vec4::INFINITY)
 }
 
 /// √(x² + y²), in a tenth of the time of `hypot`: what is too small for squares does not matter beside whole pixels, and what is too large is infinite.
@@ -187,5 +206,32 @@ mod tests {
             filter_px: 0.0,
         };
         assert_eq!(largest_box_px(&bound), f64::INFINITY);
+    }
+
+    #[test]
+    fn four_bounds_in_f32_are_as_one_in_f64() {
+        let mut random = crate::math::random::SplitMix(6);
+        let mut between = |lo: f64, hi: f64| lo + (hi - lo) * random.unit();
+        for round in 0..1000 {
+            let bound = SizeBound {
+                nearest_z: 0.0,
+                largest_radius: 0.0,
+                near: 0.1,
+                focal_px: between(10.0, 5000.0),
+                is_orthographic: round % 3 == 0,
+                size_px: [640.0, 480.0],
+                middle_px: [320.0, 240.0],
+                filter_px: between(0.0, 1.5),
+            };
+            let lanes = [0; 4].map(|_| [between(-0.1, 2.0), between(0.0, 1.0).powi(4), between(0.0, 3.0)]);
+            let lane = |of: usize| Vec4::from_array(lanes.map(|lane| lane[of] as f32));
+            let found = boxes_within_px(&bound, [lane(0), lane(1), lane(2)]);
+            for (i, [nearest_z, radius, most_x]) in lanes.into_iter().enumerate() {
+                let one =
+                    box_within_px(&SizeBound { nearest_z, largest_radius: radius, ..bound }, radius, most_x);
+                let four = f64::from(found[i]);
+                assert!(four == one || (four - one).abs() <= 1e-6 * one, "{four} {one} of {bound:?}");
+            }
+        }
     }
 }

@@ -4,36 +4,44 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::blocks::Block;
+use super::{blocks::Block, quad::Quad};
 
-/// Nodes that have one above them.
+/// Nodes that have one above them: as many as a [`Quad`] has bounds.
 pub const CHILDREN: usize = 4;
 
 /// Nodes on top at most: with their blocks' splats on a Z-curve they lie apart from each other.
 const MOST_ON_TOP: usize = 32;
 
-/// Bounds of runs of blocks, which lie near each other as their splats do.
+/// Bounds of blocks and of runs of them, which lie near each other as their splats do.
 #[derive(Clone, Debug, Default)]
 pub struct BlockTree {
-    /// Those of [`CHILDREN`] blocks, then those of as many of these, and so on up to the top. None of few blocks, or of such with levels of detail.
-    pub levels: Vec<Vec<Block>>,
+    /// The blocks; then those above them, level by level up to the top. Of blocks with levels of detail, these alone.
+    pub levels: Vec<Vec<Quad>>,
 }
 
 impl BlockTree {
     /// Over these blocks.
     pub(super) fn new(blocks: &[Block]) -> Self {
-        let mut levels: Vec<Vec<Block>> = Vec::new();
-        if blocks.iter().any(|block| block.levels.is_some()) {
-            return Self { levels };
+        let quads = |blocks: &[Block]| blocks.chunks(CHILDREN).map(Quad::of).collect();
+        let mut levels = vec![quads(blocks)];
+        levels.extend(above(blocks).iter().map(|blocks| quads(blocks)));
+        Self { levels }
+    }
+}
+
+/// Bounds of [`CHILDREN`] of these blocks, then of as many of those, and so on up to the top. None of few blocks, or of such with levels of detail.
+pub(super) fn above(blocks: &[Block]) -> Vec<Vec<Block>> {
+    let mut levels: Vec<Vec<Block>> = Vec::new();
+    if blocks.iter().any(|block| block.levels.is_some()) {
+        return levels;
+    }
+    loop {
+        let below = levels.last().map_or(blocks, |level| level);
+        if below.len() <= MOST_ON_TOP {
+            return levels;
         }
-        loop {
-            let below = levels.last().map_or(blocks, |level| level);
-            if below.len() <= MOST_ON_TOP {
-                return Self { levels };
-            }
-            let level = below.chunks(CHILDREN).map(around).collect();
-            levels.push(level);
-        }
+        let level = below.chunks(CHILDREN).map(around).collect();
+        levels.push(level);
     }
 }
 

@@ -87,6 +87,32 @@ pub(crate) fn cut_into_bands<'m>(
     cut.within(most_bytes).unwrap_or_default()
 }
 
+/// The rows at which bands of what `whole` would draw at once are likely to end, if they take so many bytes.
+pub(crate) fn likely_ends<'m>(
+    arena: &'m Arena,
+    seen: &PotentiallyVisibleBlocks<'_>,
+    whole: &TilePlan,
+    most_bytes: u64,
+) -> &'m [u32] {
+    let Some(rows) = seen.rows() else { return &[] };
+    let costs = seen.costs(arena, |box_px| whole.bytes_of_one(box_px));
+    let (mut ends, mut begin) = (arena.growing(), rows.start);
+    for end in rows.start + 2..=rows.end {
+        if cost_of_rows(whole, costs, begin..end) > most_bytes {
+            begin = end - 1;
+            ends.push(begin);
+        }
+    }
+    ends.into_bump_slice()
+}
+
+/// About what these rows take: records, entries, and their share of the tiles.
+fn cost_of_rows(whole: &TilePlan, costs: &[[u64; 2]], rows: Range<u32>) -> u64 {
+    let of_tiles = whole.bytes_of_bins() * rows.len() as u64 / whole.rows.len().max(1) as u64;
+    let [end, start] = [rows.end, rows.start].map(|row| costs[row as usize]);
+    end[0] - start[1] + of_tiles
+}
+
 /// What is cut into bands.
 struct Cut<'c, 'm> {
     arena: &'m Arena,
@@ -134,13 +160,6 @@ impl<'m> Cut<'_, 'm> {
         self.whole.of_rows_of_it(self.draws, self.seen, rows, self.settings, self.limits)
     }
 
-    /// About what these rows take: records, entries, and their share of the tiles.
-    fn cost(&self, rows: Range<u32>) -> u64 {
-        let of_tiles = self.whole.bytes_of_bins() * rows.len() as u64 / self.whole.rows.len().max(1) as u64;
-        let [end, start] = [rows.end, rows.start].map(|row| self.costs[row as usize]);
-        end[0] - start[1] + of_tiles
-    }
-
     /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many.
     fn plans(&self, most_bytes: u64) -> Option<&'m [TilePlan]> {
         let Range { start: first, end } = self.seen.rows()?;
@@ -148,7 +167,9 @@ impl<'m> Cut<'_, 'm> {
         let mut next = first;
         while next < end {
             // A row alone is a band, whatever it takes.
-            let more = (next + 2..=end).take_while(|end| self.cost(next..*end) <= most_bytes).count();
+            let more = (next + 2..=end)
+                .take_while(|end| cost_of_rows(self.whole, self.costs, next..*end) <= most_bytes)
+                .count();
             let band = next..next + 1 + more as u32;
             next = band.end;
             plans.extend(self.plan(band));

@@ -2,7 +2,7 @@
 
 use crate::passes::plan::few::are_few;
 use crate::passes::plan::{
-    bands::{cut_into_bands, most_bytes},
+    bands::{cut_into_bands, likely_ends, most_bytes},
     tiles::rows::rows_of_image,
 };
 use crate::passes::{
@@ -123,16 +123,20 @@ fn bands<'a>(
         if tight.bytes() <= most_bytes {
             (rough, tight)
         } else {
-            // Where bands may end rows matter.
-            let cut = cut_into_bands(arena, splats, &rough, &tight, settings, limits);
-            let ends = match cut.is_empty() {
-                true => arena.list(rows.clone()),
-                false => arena.list(cut.iter().map(|band| band.rows.end)),
+            // Most of what is listed for nothing lies at silhouettes. Where more than that has no room, rows matter where bands may end.
+            let looked_into = |seen: &PotentiallyVisibleBlocks<'_>, ends: &[u32]| {
+                let runs = splats.iter().zip(seen.chunks);
+                let runs = arena.list(runs.map(|(draw, runs)| draw.closer_runs(arena, runs, ends)));
+                PotentiallyVisibleBlocks::new(arena, runs, rows.end)
             };
-            let runs = splats.iter().zip(rough.chunks);
-            let runs = arena.list(runs.map(|(draw, runs)| draw.closer_runs(arena, runs, ends)));
-            let close = PotentiallyVisibleBlocks::new(arena, runs, rows.end);
-            (close, tightened(&close))
+            let close = looked_into(&rough, &[]);
+            let tight = tightened(&close);
+            if tight.bytes() <= most_bytes {
+                (close, tight)
+            } else {
+                let closest = looked_into(&close, likely_ends(arena, &close, &tight, most_bytes));
+                (closest, tightened(&closest))
+            }
         }
     };
     if left_to_others(&whole) {

@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::*;
 use crate::{
-    prepare::{CHILDREN, prepare_without_device},
+    prepare::{CHILDREN, block_tree::above, prepare_without_device},
     scene::{Colors, Object, Order, Scene, SplatFormat, Storage},
     vk::Limits,
 };
@@ -70,12 +70,12 @@ fn bounds_are_those_of_what_is_there_whatever_the_order() {
             assert!((*side - expected).length() < 1e-6, "{side} {expected}");
         }
         // What is above them holds the blocks.
-        assert!(chunk.tree.levels.is_empty(), "there are few");
+        assert_eq!(chunk.tree.levels.len(), 1, "there are few");
         let many: Vec<_> = chunk.blocks.iter().cycle().take(90).cloned().collect();
-        let mut tree = BlockTree::new(&many);
-        tree.levels.insert(0, many);
-        assert!(tree.levels.len() > 1);
-        for levels in tree.levels.windows(2) {
+        let mut all = above(&many);
+        assert!(!all.is_empty());
+        all.insert(0, many);
+        for levels in all.windows(2) {
             assert_eq!(levels[1].len(), levels[0].len().div_ceil(CHILDREN));
             for (number, block) in levels[0].iter().enumerate() {
                 let run = &levels[1][number / CHILDREN];

@@ -1,5 +1,8 @@
+use glam::DVec3;
+
 use super::*;
 use crate::{
+    arena::Arena,
     math::{random::SplitMix, size::half_image},
     prepare::Rebase,
     scene::Camera,
@@ -24,6 +27,15 @@ fn direction(between: &mut impl FnMut(f64, f64) -> f64) -> DVec3 {
             return v.normalize();
         }
     }
+}
+
+/// One block alone.
+fn look_at_one(number: u32, block: &Block, look: &BlockCullView<'_>) -> Option<PotentiallyVisibleRun> {
+    let arena = Arena::new();
+    let (mut runs, blocks) = (arena.growing(), std::slice::from_ref(block));
+    let place = Place { first: number, each: 1, end: number + 1, blocks };
+    look_at(&mut runs, place, &Quad::of(blocks), (look, &Eye::new(look)));
+    runs.pop()
 }
 
 /// Whatever is seen of a block's disks is in its rows, and a block that is left out has nothing to see: at random places, sizes and
@@ -82,7 +94,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             by_origin: view.origin_from_eye.length() + 3.0 * view.view_from_local_scale,
             half_image: half_image(&bound),
         };
-        let seen = look_at(0, 1, &block, &look);
+        let seen = look_at_one(0, &block, &look);
         for disk in &disks {
             let faces_away = disk.normal.dot(ray_to(disk.center)) > 0.0;
             if look.culls && faces_away {
@@ -137,7 +149,6 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
 #[test]
 fn runs_leave_out_no_more_than_their_blocks() {
     use crate::{
-        arena::Arena,
         passes::plan::{draws::draws, range::DepthRange},
         prepare::{Placed, prepare_without_device},
         scene::{Colors, Object, Scene, Settings, Shapes, Splats},
@@ -188,7 +199,7 @@ fn runs_leave_out_no_more_than_their_blocks() {
                         for (number, block) in (0..).zip(&chunk.blocks) {
                             let run =
                                 runs.iter().find(|run| (run.first..run.first + run.blocks).contains(&number));
-                            let own = look_at(number, 1, block, &look);
+                            let own = look_at_one(number, block, &look);
                             wanted += usize::from(own.is_some() && closely);
                             listed[usize::from(closely)] += usize::from(run.is_some());
                             let Some(own) = own else {

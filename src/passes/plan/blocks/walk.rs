@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use super::{BlockCullView, look_at};
+use super::{BlockCullView, Place, balls::Eye, look_at};
 use crate::{
     arena::{Arena, ArenaVec},
     passes::plan::seen::PotentiallyVisibleRun,
-    prepare::{Block, CHILDREN, Chunk},
+    prepare::{Block, CHILDREN, Chunk, Quad},
 };
 
-/// Looks at bounds of a chunk, beside those on top; and how many more where memory for lists is short, so that it matters how many splats may be in which rows.
+/// Looks at bounds of a chunk, beside those on top; and how many more each time where memory for lists is short, so that it matters how many splats there are, and then in which rows.
 const MOST_LOOKS: usize = 256;
 const MOST_CLOSER_LOOKS: usize = 4096;
 
@@ -31,12 +31,15 @@ pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
 ) -> &'m [PotentiallyVisibleRun] {
     let blocks = &chunk.blocks;
     // Of a chunk that a host writes, the blocks have the same bounds: one is looked at for all.
-    if let (true, Some(first)) = (chunk.is_dynamic(), blocks.first()) {
-        let all = Block { count: chunk.count, levels: None, ..*first };
-        return arena.list(look_at(0, blocks.len() as u32, &all, look));
-    }
     let mut top = arena.growing();
-    look_at_nodes(&mut top, chunk, (chunk.tree.levels.len(), 0..usize::MAX), look);
+    if let (true, Some(first)) = (chunk.is_dynamic(), blocks.first()) {
+        let all = Quad::of(&[Block { count: chunk.count, levels: None, ..*first }]);
+        let end = blocks.len() as u32;
+        look_at(&mut top, Place { first: 0, each: end, end, blocks: &[] }, &all, (look, &Eye::new(look)));
+        return top.into_bump_slice();
+    }
+    let Some(level) = chunk.tree.levels.len().checked_sub(1) else { return &[] };
+    look_at_quads(&mut top, chunk, (level, 0..usize::MAX), (look, &Eye::new(look)));
     looked_into(arena, chunk, look, top, MOST_LOOKS, |run| !run.all_seen)
 }
 
@@ -58,24 +61,22 @@ pub(in crate::passes::plan) fn closer_runs<'m>(
     looked_into(arena, chunk, look, front, MOST_CLOSER_LOOKS, |run| !run.all_seen || is_cut(run))
 }
 
-/// Looks at some nodes of a level of a chunk's tree, of which 0 are the blocks.
-fn look_at_nodes(
+/// Looks at some quads of a level of a chunk's tree.
+fn look_at_quads(
     runs: &mut ArenaVec<'_, PotentiallyVisibleRun>,
     chunk: &Chunk,
     (level, range): (usize, Range<usize>),
-    look: &BlockCullView<'_>,
+    look: (&BlockCullView<'_>, &Eye),
 ) {
-    let nodes = level.checked_sub(1).map_or(&chunk.blocks, |level| &chunk.tree.levels[level]);
+    let quads = &chunk.tree.levels[level];
     let each = CHILDREN.pow(level as u32);
-    let range = range.start..range.end.min(nodes.len());
-    runs.reserve(range.len());
-    let mut first = range.start * each;
-    for node in &nodes[range] {
-        let blocks = each.min(chunk.blocks.len() - first);
-        if let Some(run) = look_at(first as u32, blocks as u32, node, look) {
-            runs.push(run);
-        }
-        first += each;
+    let end = chunk.blocks.len() as u32;
+    let range = range.start..range.end.min(quads.len());
+    runs.reserve(range.len() * CHILDREN);
+    for number in range {
+        let first = number * CHILDREN * each;
+        let blocks = if level == 0 { &chunk.blocks[first..] } else { &[] };
+        look_at(runs, Place { first: first as u32, each: each as u32, end, blocks }, &quads[number], look);
     }
 }
 
@@ -88,11 +89,12 @@ fn looked_into<'m>(
     mut looks: usize,
     wants: impl Fn(&PotentiallyVisibleRun) -> bool,
 ) -> &'m [PotentiallyVisibleRun] {
-    for level in (0..chunk.tree.levels.len()).rev() {
+    let eye = &Eye::new(look);
+    for level in (1..chunk.tree.levels.len()).rev() {
         let each = CHILDREN.pow(level as u32);
         // The last run of a level may be short, and is then that of a lower one, too.
         let is_wanted = |run: &PotentiallyVisibleRun| {
-            (each + 1..=each * CHILDREN).contains(&(run.blocks as usize)) && wants(run)
+            (each / CHILDREN + 1..=each).contains(&(run.blocks as usize)) && wants(run)
         };
         let wanted = front.iter().filter(|run| is_wanted(run)).count();
         let chosen = wanted.min(looks / CHILDREN);
@@ -103,8 +105,8 @@ fn looked_into<'m>(
         let (mut share, mut below) = (Share { wanted, chosen, met: 0 }, arena.growing());
         for run in front {
             if is_wanted(&run) && share.next() {
-                let first = run.first as usize / each;
-                look_at_nodes(&mut below, chunk, (level, first..first + CHILDREN), look);
+                let quad = run.first as usize / each;
+                look_at_quads(&mut below, chunk, (level - 1, quad..quad + 1), (look, eye));
             } else {
                 below.push(run);
             }
