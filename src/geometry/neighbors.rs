@@ -140,6 +140,11 @@ impl Tree {
         starts.zip(found).map(|(start, end)| start..end).collect()
     }
 
+    /// The places of the points, in the tree's order.
+    pub(super) fn positions(&self) -> Vec<DVec3> {
+        self.points.iter().map(|point| point.position).collect()
+    }
+
     /// The points in the tree's order, in which neighbors lie near each other; a *place* is an index of it.
     pub(super) fn points(&self) -> &[Point] {
         &self.points

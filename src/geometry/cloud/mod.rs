@@ -198,11 +198,11 @@ impl Cloud {
         report.noisy = coarse.is_some();
         report.normals_from_file = given.iter().filter(|given| **given).count();
         (self.neighbors, self.spreads, self.normals) = (neighbors, spreads, normals);
-        report.sides = self.choose_sides(points, &given, report.normals_from_file);
+        report.sides = self.choose_sides(points, &given, report);
     }
 
     /// The sides of normals that are not the file's.
-    fn choose_sides(&mut self, points: &Points, given: &[bool], of_file: usize) -> Sides {
+    fn choose_sides(&mut self, points: &Points, given: &[bool], report: &CloudReport) -> Sides {
         if !points.viewpoints.is_empty() {
             let origin = points.positions.first().copied().unwrap_or_default();
             let views = &points.viewpoints;
@@ -215,10 +215,12 @@ impl Cloud {
                 }
             }
             Sides::TowardScanner
-        } else if of_file == 0 {
-            let positions: Vec<DVec3> = self.tree.points().iter().map(|point| point.position).collect();
-            let areas: Vec<f64> = self.spreads.iter().map(|spread| spread * spread).collect();
-            orient::orient(&positions, &self.neighbors, &areas, &mut self.normals);
+        } else if report.normals_from_file == 0 {
+            if !report.noisy {
+                // Patches have turned theirs.
+                let areas: Vec<f64> = self.spreads.iter().map(|spread| spread * spread).collect();
+                orient::orient(&self.tree.positions(), &self.neighbors, &areas, &mut self.normals);
+            }
             Sides::One
         } else {
             // A few lack theirs: as most of their neighbors.
@@ -250,8 +252,7 @@ impl Cloud {
         let one = |scratch: &mut (Vec<DVec3>, Cells), place: usize| {
             own(place).unwrap_or_else(|| (DEFAULT_OVERLAP * self.reach(place, scratch)) as f32)
         };
-        let mut radii = Vec::new();
-        radii.reserve_exact(count);
+        let mut radii = Vec::with_capacity(count);
         for first in (0..count).step_by(BATCH) {
             steps.done(1, first, count);
             let batch = (first..count.min(first + BATCH)).into_par_iter();

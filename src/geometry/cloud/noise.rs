@@ -29,7 +29,7 @@ const THICKER: f64 = 1.2;
 /// So many points tell of all.
 const SAMPLES: usize = 200;
 
-/// The normals at all points, if those of 12 neighbors are too noisy and coarser ones are not; their sides mean nothing.
+/// The normals at all points, on one side of each surface, if those of 12 neighbors are too noisy and coarser ones are not.
 pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
     if thickness::<NEIGHBORS>(tree, tree) <= FLAT {
         return None;

@@ -28,8 +28,8 @@ struct Sets(Vec<u32>);
 /// The length of the mean normal above which a surface is a sheet. That of half a ball is 1/2.
 const SHEET: f64 = 0.7;
 
-/// Below, the product of what the mirror tells and of how far an edge lies in both planes is more than a half.
-const SHEET_COST: usize = 180;
+/// Below, the product of what the mirror tells and of how far an edge lies in both planes is more than 0.8.
+const SHEET_COST: usize = 114;
 
 /// So many points may be a sheet.
 const FEWEST_OF_SHEET: u32 = 100;

@@ -17,6 +17,7 @@ use rayon::prelude::*;
 
 use super::{
     fit::Plane,
+    orient::orient,
     plane::{MOST_NEIGHBORS, NEIGHBORS},
     sheets,
 };
@@ -76,12 +77,13 @@ struct Patch {
     reach: f64,
 }
 
-/// The normals at all points of a tree, of patches through the points of a coarser one or of itself; their sides mean nothing. Planes thicker than
+/// The normals at all points of a tree, of patches through the points of a coarser one or of itself, on one side of each surface. Planes thicker than
 /// `mixed` may be of two sheets.
 pub(super) fn normals(tree: &Tree, coarse: &Tree, mixed: f64) -> Vec<DVec3> {
     let middles = every(coarse, EVERY);
-    let facets: Vec<Facet> =
+    let mut facets: Vec<Facet> =
         middles.points().par_iter().map(|middle| Facet::at(middle.position, coarse, mixed)).collect();
+    turn_to_one_side(&mut facets, &middles);
     let patches: Vec<Patch> = (0..facets.len())
         .into_par_iter()
         .map(|place| Patch::new(facets[place], near(&middles, middles.points()[place].position, &facets)))
@@ -96,6 +98,22 @@ pub(super) fn normals(tree: &Tree, coarse: &Tree, mixed: f64) -> Vec<DVec3> {
         points.iter().map(|point| one(point).unwrap_or(DVec3::Z)).collect::<Vec<_>>()
     };
     tree.groups(GROUP).into_par_iter().flat_map_iter(of_group).collect()
+}
+
+/// Turns the normals of facets about the points of a tree.
+fn turn_to_one_side(facets: &mut [Facet], middles: &Tree) {
+    // Means of points of two sheets would lie between these.
+    let places = middles.positions();
+    let mut normals: Vec<DVec3> = facets.iter().map(|facet| facet.normal).collect();
+    let neighbors: Vec<[u32; NEIGHBORS]> =
+        (0..places.len()).into_par_iter().map(|place| middles.nearest_places(place)).collect();
+    let area = |place: usize| -> f64 {
+        let six = neighbors[place].iter().take(6).filter_map(|j| places.get(*j as usize));
+        six.map(|other| other.distance_squared(places[place])).sum::<f64>() / 6.0
+    };
+    let areas: Vec<f64> = (0..places.len()).map(area).collect();
+    orient(&places, &neighbors, &areas, &mut normals);
+    facets.iter_mut().zip(normals).for_each(|(facet, normal)| facet.normal = normal);
 }
 
 /// What belongs to the points of a tree that are nearest to a place.
