@@ -82,17 +82,28 @@ fn sum_normal(normals: &[Vec3], group: &[u32]) -> Vec3 {
     }
 }
 
-/// The step between numbers of 32 bits at points that have such coordinates, if their neighbors are no farther than a few steps: points were
-/// moved to places that are such numbers then, some to one. Maps' coordinates in a format of 32 bits do that.
-pub(super) fn coarse_step(positions: &[DVec3], spreads: &[f64]) -> Option<f64> {
-    let largest = positions.par_iter().map(|place| place.abs().max_element()).reduce(|| 0.0, f64::max);
+/// The step between numbers of 32 bits at half of the points, which all have such coordinates, if their neighbors are no farther than a few steps: points
+/// were moved to places that are such numbers then, some to one. Maps' coordinates in a format of 32 bits do that.
+pub(super) fn coarse_step(positions: &[DVec3], spreads: &[f64], duplicates: usize) -> Option<f64> {
+    if duplicates == 0 {
+        return None;
+    }
+    let [largest, spread] = [
+        &mut positions.iter().map(|place| place.abs().max_element()).collect::<Vec<_>>(),
+        &mut spreads.to_vec(),
+    ]
+    .map(median);
     let step = f64::from((largest as f32).next_up()) - f64::from(largest as f32);
-    let spread = spreads.iter().sum::<f64>() / spreads.len() as f64;
     let is_coarse = spread > 0.0 && spread <= FEW_STEPS * step;
     (is_coarse && positions.par_iter().all(|place| place.as_vec3().as_dvec3() == *place)).then_some(step)
 }
 
-/// Points of maps are centimeters apart or more, and northings have steps of half a meter.
+fn median(values: &mut Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
+}
+
+/// Places on a grid of so many steps are still seen to be on it.
 const FEW_STEPS: f64 = 4.0;
 
 #[cfg(test)]
@@ -105,10 +116,16 @@ mod tests {
         let grid = |apart: f64| -> Vec<DVec3> {
             (0..100).map(|i| DVec3::new(f64::from(i) * apart, 4_600_000.0 + f64::from(i), 3.0)).collect()
         };
-        assert_eq!(coarse_step(&grid(0.125), &[1.0; 100]), Some(0.5));
-        assert_eq!(coarse_step(&grid(0.125), &[3.0; 100]), None, "far enough apart");
-        assert_eq!(coarse_step(&grid(0.1), &[1.0; 100]), None, "of 64 bits");
-        assert_eq!((coarse_step(&[], &[]), coarse_step(&[DVec3::ONE], &[0.0])), (None, None));
+        assert_eq!(coarse_step(&grid(0.125), &[1.0; 100], 1), Some(0.5));
+        assert_eq!(coarse_step(&grid(0.125), &[3.0; 100], 1), None, "far enough apart");
+        assert_eq!(coarse_step(&grid(0.1), &[1.0; 100], 1), None, "of 64 bits");
+        let near: Vec<DVec3> = grid(0.125).iter().map(|place| *place - 4_600_000.0 * DVec3::Y).collect();
+        assert_eq!(
+            coarse_step(&[near, grid(0.125)[..9].to_vec()].concat(), &[1.0; 109], 1),
+            None,
+            "but for a few"
+        );
+        assert_eq!((coarse_step(&[], &[], 1), coarse_step(&[DVec3::ONE], &[0.0], 1)), (None, None));
     }
 
     #[test]

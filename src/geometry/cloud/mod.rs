@@ -65,7 +65,7 @@ pub fn splats_from_points(points: Points, progress: &dyn Progress) -> (Splats, C
     let mut cloud = Cloud::new(&points);
     let steps = Steps { progress, passes: 2 };
     cloud.find_planes(&points, &steps, &mut report);
-    report.coarse_step = merge::coarse_step(&points.positions, &cloud.spreads).filter(|_| duplicates > 0);
+    report.coarse_step = merge::coarse_step(&points.positions, &cloud.spreads, duplicates);
     let isolated = outliers::isolated(&cloud.neighbors, &cloud.spreads);
     let radii = cloud.radii(&points, &isolated, &steps, &mut report);
     // Back into the order of the file.

@@ -10,7 +10,7 @@
 //!
 //! The tree is found by Kruskal's algorithm on costs in 256 steps, and sets of points that know their side against the set's first.
 //!
-//! **Sheets.** Edges that cost more than [`SHEET_COST`] join no points, but the sheets that the others made: all between two of them vote,
+//! **Sheets.** Edges that cost [`SHEET_COST`] or more join no points, but the sheets that the others made: all between two of them vote,
 //! each with what the mirror tells over the fourth power of its length. Of two parallel sheets, h apart and one above the other, an edge
 //! to a point r beside the one below tells (r² − h²) / (r² + h²); the sum over all r of that by (r² + h²)⁻² is negative whatever the reach,
 //! so that they oppose as sides of a plate, although most edges may be slanted, and tell that they are one surface.

@@ -112,7 +112,10 @@ impl fmt::Display for CloudReport {
             write!(f, "; {}", told.join(", "))?;
         }
         if let Some(step) = self.coarse_step {
-            let step = (1e3 * step).round() / 1e3;
+            // Two digits.
+            let unit = 10_f64.powf(step.log10().floor() - 1.0);
+            let step = (step / unit).round() * unit;
+            let step = step as f32;
             write!(
                 f,
                 "; numbers of 32 bits tell places to {step} here: export 64 bits, or from a nearer origin"

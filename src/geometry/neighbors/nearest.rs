@@ -2,8 +2,8 @@
 //!
 //! **Keys.** A squared distance and a place are one positive number: the upper half of the distance's bits above those of the place.
 //! Such numbers are sorted as their distances are, and a number enters a sorted list by a minimum and a maximum at each place of it,
-//! without a branch that a processor could guess wrong. Distances that differ by less than a millionth count as equal, and the lower
-//! place comes first; so do those below 1e-154, whose squares are no normal numbers.
+//! without a branch that a processor could guess wrong. Distances that differ by less than a millionth count as equal, and of such that were looked
+//! at the lower place comes first; so do those below 1e-154, whose squares are no normal numbers.
 
 use std::ops::Range;
 

@@ -28,8 +28,9 @@ impl Writing {
         // Commas that stand within three or more words stand for points; in `1, 2, 3` they end words.
         let mut words = 0;
         let all_decimal = blanks.fields(row).all(|word| {
-            words += 1;
-            number(word, true).is_some() && !word.ends_with(b",")
+            let is_number = number(word, true).is_some() && !word.ends_with(b",");
+            words += usize::from(is_number);
+            is_number || !word.contains(&b',')
         });
         match has(b',') && !(all_decimal && words >= 3) {
             true => Self { between: Between::Comma, decimal_comma: false },

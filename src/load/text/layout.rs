@@ -55,8 +55,9 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
         }
         let writing = Writing::of(line);
         let is_alone = writing.fields(line).nth(1).is_none();
-        let place = if is_alone { 0 } else { first_read(input, header, writing) };
-        let first = writing.fields(line).nth(place).unwrap_or_default();
+        let place =
+            if is_alone { 0 } else { first_read(input, header.map(|(_, line)| line), comment, writing) };
+        let first = writing.fields(line).nth(place).or(writing.fields(line).next()).unwrap_or_default();
         match (writing.number(first), is_alone) {
             (Some(_), true) if count.is_none() => count = Some((at, line)),
             (Some(_), true) => {
@@ -92,8 +93,12 @@ pub(super) fn comment_text(line: &[u8]) -> Option<&[u8]> {
 }
 
 /// The place in a row of the first number that is read; what stands before it, a time or a name, may be anything.
-fn first_read(input: &Input<'_>, header: Option<(usize, &[u8])>, writing: Writing) -> usize {
-    let named = || header.map(|(_, line)| of_header(line, writing).0);
+fn first_read(input: &Input<'_>, header: Option<&[u8]>, comment: Option<&[u8]>, writing: Writing) -> usize {
+    let named = || match header {
+        Some(line) => Some(of_header(line, writing).0),
+        // Not every comment names columns.
+        None => comment.map(|text| named(text).0).filter(|columns| Columns::new(columns.clone()).is_ok()),
+    };
     let columns = input.options.columns.as_ref().map(|given| given.columns().to_vec()).or_else(named);
     let is_read = |column: &Column| *column != Column::Other;
     columns.and_then(|columns| columns.iter().position(is_read)).unwrap_or(0)
@@ -114,6 +119,8 @@ fn named(line: &[u8]) -> (Vec<Column>, Vec<String>) {
 fn of_header(line: &[u8], writing: Writing) -> (Vec<Column>, Vec<String>) {
     let words: Vec<Vec<u8>> = Writing { decimal_comma: false, ..writing }
         .fields(line)
+        // A name that is empty is one, as that of the row's number in tables of pandas.
+        .map(|name| if name.is_empty() { b"-" } else { name })
         .map(|name| name.iter().map(|b| if *b == b' ' { b'_' } else { *b }).collect())
         .collect();
     named(&words.join(&b' '))

@@ -92,8 +92,8 @@ impl Rows {
         let mut fields = layout.writing.fields(line);
         for (i, slot) in slots.iter().enumerate() {
             let Some(word) = fields.next() else {
-                let count = if i == 1 && layout.counted { layout.writing.number(line) } else { None };
-                if let Some(count) = count {
+                let first = layout.writing.fields(line).next().filter(|_| i == 1 && layout.counted);
+                if let Some(count) = first.and_then(|word| layout.writing.number(word)) {
                     self.counts.push((at, count, self.positions.len() as u64));
                     return Ok(());
                 }

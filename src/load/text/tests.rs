@@ -95,13 +95,22 @@ fn columns_that_are_not_read_may_be_words() {
     let (points, loaded) = points(times);
     assert_eq!(points.positions, [DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 5.0, 6.0)]);
     assert_eq!(notes(&loaded), ["2 columns (column 'time', column 'class') ignored"]);
-    for text in
-        ["p1 1 2 3\np2 4 5 6\n", "name east north up\np1 1 2 3\np2 4 5 6\n", "2\np1 1 2 3\np2 4 5 6\n"]
-    {
+    for text in [
+        "p1 1 2 3\np2 4 5 6\n",
+        "p1 1,0 2,0 3\np2 4,0 5,0 6,0\n",
+        "name east north up\np1 1 2 3\np2 4 5 6\n",
+        "2\np1 1 2 3\np2 4 5 6\n",
+    ] {
         let named = with_columns("-,x,y,z", text).unwrap();
         let Model::Points(named) = &named.model else { panic!("no points") };
         assert_eq!(named.positions, points.positions);
     }
+    let commented = self::points("# time x y z\n2024-01-01T00:00:00 1 2 3\n2024-01-01T00:00:01 4 5 6\n").0;
+    assert_eq!(commented.positions, points.positions);
+    let nameless = self::points(",x,y,z\n0,1,2,3\n1,4,5,6\n").0;
+    assert_eq!(nameless.positions, points.positions);
+    assert_eq!(self::points("2,\n1,2,3\n4,5,6\n").0.positions, points.positions);
+    refuses("name,time,x,y,z\na,b\n", "line 2: 'a'; expected a number");
     refuses("t,x,y,z\na,b,2,3\n", "line 2: 'b'; expected a number");
     refuses("x,y,z,t\n1,2,3,a\n4,5,c,d\n", "line 3: 'c' in column 3; expected a number");
 }

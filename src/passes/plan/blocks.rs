@@ -36,6 +36,12 @@ pub struct BlockCullView<'a> {
     pub half_image: f64,
 }
 
+impl BlockCullView<'_> {
+    fn eye(&self) -> Eye {
+        Eye::new(self.view, self.bound, self.by_origin)
+    }
+}
+
 /// Where the blocks of a quad are, or the runs of blocks that it bounds.
 #[derive(Clone, Copy)]
 struct Place<'a> {
@@ -83,7 +89,12 @@ fn look_at(
             blocks: place.each.min(place.end - first),
             count: quad.counts[i],
             box_px: boxes_px[i].into(),
-            rows: if is(image.far) { row(top_px[i])..row(bottom_px[i]) + 1 } else { 0..end },
+            // NaN is the whole image.
+            rows: if is(image.far) && top_px[i] <= bottom_px[i] {
+                row(top_px[i])..row(bottom_px[i]) + 1
+            } else {
+                0..end
+            },
             all_seen: is(whole),
             all_of_level: true,
         };

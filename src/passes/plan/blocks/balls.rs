@@ -1,12 +1,14 @@
 //! Four balls of splats at once, as the eye sees them.
 //!
-//! All is computed in f32 and must lose nothing. What is rounded up to where a ball is, the reserves of its radius hold, with what a device rounds; where it is in the image, they hold, too:
-//! a relative error there, of some 2⁻²², is less than what a hundred-thousandth of the distance makes of its image.
+//! All is computed in f32 and must lose nothing. The reserves of a ball's radius hold what is rounded of where it is, here and on a device. They hold what is rounded of its image, too:
+//! a relative error of some 2⁻²² is less than the image of a hundred-thousandth of the distance.
 
 use glam::{BVec4A, DVec3, Vec3, Vec4};
 
-use super::BlockCullView;
-use crate::prepare::Quad;
+use crate::{
+    math::size::SizeBound,
+    prepare::{Quad, ViewFromLocal},
+};
 
 /// What a device finds of a unit vector may differ from what is found here by so much of an angle: some roundings of 2⁻²⁴, and a
 /// packed normal's; much less than this.
@@ -18,7 +20,7 @@ const COS_RESERVE: f32 = 0.999_999_5;
 /// What is rounded of sines and cosines of sums of angles, which all differences of angles may be beside: some 10 roundings of 2⁻²⁴.
 const SINE_RESERVE: f32 = 1e-6;
 
-/// The same of a place, as a part of its distance from the eye; and of the distances of the chunk's origin from both, whose difference it
+/// What is reserved of a place, as a part of its distance from the eye; and of the distances of the chunk's origin from both, whose difference it
 /// is: to a device a sum of four terms, off by some 6 roundings of 2⁻²⁴ of them, 4e-7, and here by half as much.
 const LENGTH_RESERVE: f32 = 1e-5;
 const ORIGIN_RESERVE: f64 = 1e-6;
@@ -42,15 +44,15 @@ pub(super) struct Eye {
 }
 
 impl Eye {
-    pub fn new(look: &BlockCullView<'_>) -> Self {
+    /// `by_origin`: how far a chunk's origin is from the eye, and from there the farthest of its centers, together.
+    pub fn new(view: &ViewFromLocal, bound: &SizeBound, by_origin: f64) -> Self {
         let narrow = |v: DVec3| v.as_vec3();
-        let row = |i: usize| narrow(look.view.rotation.row(i));
-        let bound = look.bound;
+        let row = |i: usize| narrow(view.rotation.row(i));
         Self {
             rows: [row(0), row(1), row(2)],
-            origin_from_eye: narrow(look.view.origin_from_eye),
-            scale: look.view.view_from_local_scale as f32,
-            reserve: (ORIGIN_RESERVE * look.by_origin) as f32,
+            origin_from_eye: narrow(view.origin_from_eye),
+            scale: view.view_from_local_scale as f32,
+            reserve: (ORIGIN_RESERVE * by_origin) as f32,
             near: [bound.near * (1.0 - 1e-7), bound.near * (1.0 + 1e-7)].map(|near| near as f32),
             focal_px: bound.focal_px as f32,
             is_orthographic: bound.is_orthographic,

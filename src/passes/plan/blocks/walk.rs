@@ -35,11 +35,11 @@ pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
     if let (true, Some(first)) = (chunk.is_dynamic(), blocks.first()) {
         let all = Quad::of(&[Block { count: chunk.count, levels: None, ..*first }]);
         let end = blocks.len() as u32;
-        look_at(&mut top, Place { first: 0, each: end, end, blocks: &[] }, &all, (look, &Eye::new(look)));
+        look_at(&mut top, Place { first: 0, each: end, end, blocks: &[] }, &all, (look, &look.eye()));
         return top.into_bump_slice();
     }
     let Some(level) = chunk.tree.levels.len().checked_sub(1) else { return &[] };
-    look_at_quads(&mut top, chunk, (level, 0..usize::MAX), (look, &Eye::new(look)));
+    look_at_quads(&mut top, chunk, (level, 0..usize::MAX), (look, &look.eye()));
     looked_into(arena, chunk, look, top, MOST_LOOKS, |run| !run.all_seen)
 }
 
@@ -89,7 +89,7 @@ fn looked_into<'m>(
     mut looks: usize,
     wants: impl Fn(&PotentiallyVisibleRun) -> bool,
 ) -> &'m [PotentiallyVisibleRun] {
-    let eye = &Eye::new(look);
+    let eye = &look.eye();
     for level in (1..chunk.tree.levels.len()).rev() {
         let each = CHILDREN.pow(level as u32);
         // The last run of a level may be short, and is then that of a lower one, too.
