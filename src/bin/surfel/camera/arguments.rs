@@ -38,7 +38,7 @@ pub struct CameraArguments {
     pub azimuth: Option<f64>,
 
     /// The eye's height above the horizon in degrees, 90 above, -90 below [default: 0; where a
-    /// file or its shape says what is up, up to 30 for what is lower than wide]
+    /// file or its shape says what is up, up to 30 if the whole is lower than wide]
     #[arg(long, value_name = "DEG", value_parser = parse::number("degrees", -90.0..=90.0), allow_hyphen_values = true)]
     pub elevation: Option<f64>,
 
