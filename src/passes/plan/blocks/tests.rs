@@ -44,7 +44,8 @@ fn look_at_one(number: u32, block: &Block, look: &BlockCullView<'_>) -> Option<P
 fn what_is_seen_of_a_block_is_in_its_rows() {
     let mut source = SplitMix(3);
     let mut between = random(&mut source);
-    let (mut left_out, mut facing, mut narrow, mut tightest) = (0, 0, 0, 0.0_f64);
+    let (mut left_out, mut far_out, mut cut_out, mut facing, mut narrow, mut tightest) =
+        (0, 0, 0, 0, 0, 0.0_f64);
     for round in 0..4000 {
         let (size, radius) = (0.5 * between(0.0, 1.0).powi(4), 0.3 * between(0.0, 1.0).powi(6));
         let (axis, spread) = (direction(&mut between), between(0.0, 1.0).powi(2));
@@ -56,8 +57,8 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             })
             .collect();
         // Far away, where f32 has but some digits of places.
-        let origin = if round % 8 > 5 {
-            10_f64.powf(between(2.0, 6.5)) * direction(&mut between)
+        let origin = if round % 5 == 4 {
+            10_f64.powf(between(2.0, 7.0)) * direction(&mut between)
         } else {
             DVec3::ZERO
         };
@@ -149,11 +150,16 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             }
         }
         left_out += usize::from(seen.is_none());
+        far_out += usize::from(seen.is_none() && origin.length() > 1e5);
+        cut_out += usize::from(seen.is_none() && cuts);
         facing += usize::from(look.culls && seen.as_ref().is_some_and(|seen| seen.all_seen));
         narrow += usize::from(seen.is_some_and(|seen| seen.rows.len() < 10));
     }
-    println!("left out {left_out}, facing the eye {facing}, in less than 10 rows {narrow}");
+    println!(
+        "left out {left_out}, of these far away {far_out} and where a plane cuts {cut_out}, facing the eye {facing}, in less than 10 rows {narrow}"
+    );
     assert!(tightest > 0.5, "{tightest}: the bound of boxes could be less");
+    assert!(far_out > 50 && cut_out > 500, "{far_out} {cut_out}");
     assert!(left_out > 500 && facing > 100 && narrow > 500, "{left_out} {facing} {narrow}");
 }
 
