@@ -88,17 +88,14 @@ pub(super) fn coarse_step(positions: &[DVec3], spreads: &[f64], duplicates: usiz
     if duplicates == 0 {
         return None;
     }
-    let [largest, spread] = [
-        &mut positions.iter().map(|place| place.abs().max_element()).collect::<Vec<_>>(),
-        &mut spreads.to_vec(),
-    ]
-    .map(median);
+    let largest = median(positions.iter().map(|place| place.abs().max_element()).collect());
+    let spread = median(spreads.to_vec());
     let step = f64::from((largest as f32).next_up()) - f64::from(largest as f32);
     let is_coarse = spread > 0.0 && spread <= FEW_STEPS * step;
     (is_coarse && positions.par_iter().all(|place| place.as_vec3().as_dvec3() == *place)).then_some(step)
 }
 
-fn median(values: &mut Vec<f64>) -> f64 {
+fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
     if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
