@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::geometry::eigen::eigen;
+use crate::geometry::eigen::{eigen, flat};
 
 /// Thickness over width (standard deviations) up to which neighbors are flat. On a sphere the 12 are, if their reach is below
 /// 4/5 of its radius.
@@ -42,14 +42,19 @@ impl Plane {
         let [xx, xy, xz] = [xx - m.x * sum.x, xy - m.x * sum.y, xz - m.x * sum.z];
         let [yy, yz, zz] = [yy - m.y * sum.y, yz - m.y * sum.z, zz - m.z * sum.z];
         let covariance = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-        let ([least, middle, most], [normal, _, along]) = eigen(&DMat3::from_cols_array_2d(&covariance));
+        let covariance = DMat3::from_cols_array_2d(&covariance);
+        let ratio = |a: f64, b: f64| (a.max(0.0) / b).sqrt();
+        if let Some(([least, middle, most], normal)) = flat(&covariance) {
+            let (thickness, width) = (ratio(least, middle), ratio(middle, most));
+            return Self { mean: m, normal, thickness, width, along_line: false };
+        }
+        let ([least, middle, most], [normal, _, along]) = eigen(&covariance);
         // Rounding leaves that much of a line's width; NaN, where squares overflow, is none.
         let has_width = middle > 1e-14 * most;
         if !has_width {
             let normal = across(along, most > 0.0);
             return Self { mean: m, normal, thickness: 0.0, width: 0.0, along_line: false };
         }
-        let ratio = |a: f64, b: f64| (a.max(0.0) / b).sqrt();
         let (thickness, width) = (ratio(least, middle), ratio(middle, most));
         Self { mean: m, normal, thickness, width, along_line: false }
     }

@@ -8,7 +8,8 @@
 //! - An edge that does not lie in both planes costs more, so that it is taken last: with noise, points of one surface lie
 //!   above each other, too.
 //!
-//! The tree is found by Kruskal's algorithm on costs in 256 steps, and sets of points that know their side against the set's first.
+//! Sets of points know their side against the set's first. Edges that are [`SURE`] join them in any order, as they do not contradict each other; the
+//! rest of the tree is found by Kruskal's algorithm on costs in 256 steps, of what edges are left between sets.
 //!
 //! **Sheets.** Edges that cost [`SHEET_COST`] or more join no points, but the sheets that the others made: all between two of them vote,
 //! each with what the mirror tells over the fourth power of its length. Of two parallel sheets, h apart and one above the other, an edge
@@ -27,6 +28,9 @@ struct Sets(Vec<u32>);
 
 /// The length of the mean normal above which a surface is a sheet. That of half a ball is 1/2.
 const SHEET: f64 = 0.7;
+
+/// Edges of which that product is larger join at once: the two normals and the edge are within some 5° of one plane.
+const SURE: f64 = 0.98;
 
 /// Below, the product of what the mirror tells and of how far an edge lies in both planes is more than 0.8.
 const SHEET_COST: usize = 114;
@@ -63,6 +67,26 @@ impl Sets {
         let (low, high) = ((a & !TURNED).min(b & !TURNED), (a & !TURNED).max(b & !TURNED));
         if low != high {
             self.0[high as usize] = low | ((a ^ b) & TURNED) ^ if turned { TURNED } else { 0 };
+        }
+    }
+
+    /// Joins places along edges that leave no doubt.
+    fn join_sure(&mut self, positions: &[DVec3], neighbors: &[[u32; NEIGHBORS]], normals: &[DVec3]) {
+        for (i, near) in neighbors.iter().enumerate() {
+            let mut own = self.root(i as u32);
+            for &j in near.iter().filter(|j| **j != u32::MAX) {
+                if (own ^ self.root(j)) & !TURNED == 0 {
+                    continue;
+                }
+                let along = positions[j as usize] - positions[i];
+                match told(along, normals[i], normals[j as usize]) {
+                    Some(told) if told.agreement.abs() * told.in_planes > SURE => {
+                        self.join(i as u32, j, told.agreement < 0.0);
+                        own = self.root(i as u32);
+                    }
+                    _ => {}
+                }
+            }
         }
     }
 }
@@ -154,9 +178,15 @@ fn spanning_tree(
     areas: &[f64],
     normals: &[DVec3],
 ) -> Vec<u32> {
+    let mut sets = Sets((0..positions.len() as u32).collect());
+    sets.join_sure(positions, neighbors, normals);
+    let roots: Vec<u32> = (0..positions.len() as u32).map(|place| sets.root(place) & !TURNED).collect();
     // An edge that both ends know counts once.
-    let counts =
-        |i: usize, j: u32| j != u32::MAX && (i < j as usize || !neighbors[j as usize].contains(&(i as u32)));
+    let counts = |i: usize, j: u32| {
+        j != u32::MAX
+            && roots[i] != roots[j as usize]
+            && (i < j as usize || !neighbors[j as usize].contains(&(i as u32)))
+    };
     let of_place = |i: usize| -> [Option<(u8, bool)>; NEIGHBORS] {
         neighbors[i].map(|j| {
             counts(i, j).then(|| edge(positions[j as usize] - positions[i], normals[i], normals[j as usize]))
@@ -181,7 +211,6 @@ fn spanning_tree(
         }
     }
     drop(costs);
-    let mut sets = Sets((0..positions.len() as u32).collect());
     // Where a cost's edges begin has become where they end.
     let (of_sheets, between) = edges.split_at(begins[SHEET_COST - 1]);
     for &(a, b) in of_sheets {

@@ -6,9 +6,12 @@
 //! [`wide`] looks for sheets that have noise: the limit rises until most points are clearly on the sheet or clearly beside it.
 //! [`near`] is for what it does not find, such as corners of three faces, and takes the limit to be small.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3, Vec4};
 
-use super::fit::{FLAT, Plane};
+use super::{
+    fit::{FLAT, Plane},
+    plane::MOST_NEIGHBORS,
+};
 
 /// How far from the plane points of a sheet may be, in distances of the 6th neighbor.
 const LIMITS: [f64; 3] = [0.15, 0.3, 0.6];
@@ -27,7 +30,7 @@ const NEAREST: usize = 6;
 /// The fewest points of a sheet, the point itself among them.
 const FEWEST: usize = 5;
 
-/// The sheet of a point whose neighbors lie at `offsets` from it, nearest first; some 48 of them.
+/// The sheet of a point whose neighbors lie at `offsets` from it, nearest first; [`MOST_NEIGHBORS`] at most.
 pub(super) fn wide(offsets: &[DVec3]) -> Option<Plane> {
     let scale = offsets.get(5)?.length();
     let limits = LIMITS.map(|limit| limit * scale);
@@ -62,17 +65,16 @@ pub(super) fn near(offsets: &[DVec3]) -> Option<Plane> {
     (plane.thickness <= FLAT).then_some(plane)
 }
 
-/// For each limit the normal of the best plane through 0 and two of `some`.
+/// For each limit the normal of the best plane through 0 and two of `some`. Sums are of 32 bits, in limits, four neighbors at once: planes of which
+/// these tell the same are as good.
 fn planes<const N: usize>(some: &[DVec3], offsets: &[DVec3], limits: [f64; N]) -> [Option<DVec3>; N] {
-    let mut best = [(f64::INFINITY, None); N];
+    let fours = Fours::new(offsets, limits[N - 1]);
+    let squares = limits.map(|limit| Vec4::splat((limit / limits[N - 1]).powi(2) as f32));
+    let mut best = [(f32::INFINITY, None); N];
     for (i, a) in some.iter().enumerate() {
         for b in &some[..i] {
             let Some(normal) = a.cross(*b).try_normalize() else { continue };
-            let mut sums = [0.0; N];
-            for offset in offsets {
-                let squared = normal.dot(*offset).powi(2);
-                sums.iter_mut().zip(limits).for_each(|(sum, limit)| *sum += squared.min(limit * limit));
-            }
+            let sums = fours.sums(normal.as_vec3(), squares);
             for (best, sum) in best.iter_mut().zip(sums) {
                 if sum < best.0 {
                     *best = (sum, Some(normal));
@@ -81,6 +83,35 @@ fn planes<const N: usize>(some: &[DVec3], offsets: &[DVec3], limits: [f64; N]) -
         }
     }
     best.map(|(_, normal)| normal)
+}
+
+/// The x, y and z of neighbors by fours; 0 where there are fewer.
+struct Fours {
+    all: [[Vec4; 3]; MOST_NEIGHBORS / 4],
+    count: usize,
+}
+
+impl Fours {
+    fn new(offsets: &[DVec3], unit: f64) -> Self {
+        let mut all = [[Vec4::ZERO; 3]; MOST_NEIGHBORS / 4];
+        for (four, offsets) in all.iter_mut().zip(offsets.chunks(4)) {
+            for (i, offset) in offsets.iter().enumerate() {
+                (0..3).for_each(|axis| four[axis][i] = (offset[axis] / unit) as f32);
+            }
+        }
+        Self { all, count: offsets.len().div_ceil(4).min(MOST_NEIGHBORS / 4) }
+    }
+
+    /// The sums of squared distances from a plane through 0, each cut off.
+    fn sums<const N: usize>(&self, normal: Vec3, limits: [Vec4; N]) -> [f32; N] {
+        let mut sums = [Vec4::ZERO; N];
+        for [x, y, z] in &self.all[..self.count] {
+            let distance = normal.x * x + normal.y * y + normal.z * z;
+            let squared = distance * distance;
+            sums.iter_mut().zip(limits).for_each(|(sum, limit)| *sum += squared.min(limit));
+        }
+        sums.map(Vec4::element_sum)
+    }
 }
 
 /// All within `limit` of a plane.

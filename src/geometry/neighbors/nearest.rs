@@ -91,13 +91,12 @@ impl<const K: usize> Search<'_, K> {
     }
 
     fn insert(&mut self, key: f64) {
-        let before = self.keys;
         // As instructions have them: of what is not less, the second.
         let least = |a: f64, b: f64| if a < b { a } else { b };
         let most = |a: f64, b: f64| if a > b { a } else { b };
-        self.keys[0] = least(key, before[0]);
-        for i in 1..K {
-            self.keys[i] = least(before[i], most(key, before[i - 1]));
+        for i in (1..K).rev() {
+            self.keys[i] = least(self.keys[i], most(key, self.keys[i - 1]));
         }
+        self.keys[0] = least(key, self.keys[0]);
     }
 }
