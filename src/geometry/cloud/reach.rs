@@ -57,7 +57,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// The reach of a point's cell in its tangent plane, from its neighbors' offsets, nearest first. Zero without any.
+    /// The reach of a point's cell in its tangent plane, from its neighbors' offsets, nearest first, 56 at most. Zero without any.
     pub(super) fn reach(&mut self, normal: DVec3, offsets: &[DVec3]) -> Reach {
         let Some(sixth) = offsets.get(5).or(offsets.last()) else {
             return Reach { distance: 0.0, open: true };
@@ -136,7 +136,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::math::random::SplitMix;
+    use crate::{geometry::cloud::plane::MOST_NEIGHBORS, math::random::SplitMix};
 
     fn reach(normal: DVec3, offsets: &[DVec3]) -> Reach {
         Cells::default().reach(normal, offsets)
@@ -206,10 +206,15 @@ mod tests {
                 0 => offsets.extend_from_within(..2),
                 1 => offsets.iter_mut().for_each(|offset| *offset = (*offset / scale * 2.0).round() * scale),
                 2 => offsets.push(DVec3::splat(1e60 * scale)),
+                3 => (0..offsets.len()).for_each(|i| {
+                    let beside = scale * DVec3::new(unit(), unit(), unit());
+                    offsets.push(offsets[i] + 10.0_f64.powi(-3 - case % 5) * beside);
+                }),
                 _ => {}
             }
             offsets.retain(|offset| offset.length() > 1e-3 * scale);
             offsets.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+            offsets.truncate(MOST_NEIGHBORS);
             let Some(sixth) = offsets.get(5).or(offsets.last()) else { continue };
             let radius = WIDEST_GAP * sixth.length();
             let octagon = (0..SIDES).map(|i| (DVec2::from_angle(i as f64 * PI / 4.0), 1.0));
