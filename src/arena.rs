@@ -1,7 +1,7 @@
 //! Memory for one frame: what is made while a frame is recorded lies in it, one behind the other, and goes all at once. From frame to frame it is
 //! kept, so that a frame like those before takes nothing from the heap.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
 use bumpalo::Bump;
 
@@ -9,6 +9,9 @@ use bumpalo::Bump;
 /// the program is compiled.
 #[derive(Debug, Default)]
 pub struct Arena(Bump);
+
+/// Bytes that most names have room in: one that grows is copied.
+const MOST_OF_A_NAME: usize = 64;
 
 /// A list that grows in an [`Arena`].
 pub type ArenaVec<'a, T> = bumpalo::collections::Vec<'a, T>;
@@ -32,7 +35,10 @@ impl Arena {
 
     /// What something says.
     pub fn text(&self, text: impl fmt::Display) -> &str {
-        bumpalo::format!(in &self.0, "{}", text).into_bump_str()
+        let mut string = bumpalo::collections::String::with_capacity_in(MOST_OF_A_NAME, &self.0);
+        // Memory of the arena takes all that there is.
+        let _ = write!(string, "{text}");
+        string.into_bump_str()
     }
 
     /// Values, one behind the other.

@@ -2,7 +2,7 @@
 
 use std::{
     collections::HashMap,
-    hash::Hash,
+    hash::{BuildHasherDefault, Hash, Hasher},
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
@@ -14,7 +14,44 @@ use crate::{
 };
 
 /// Pipelines by what they are made of.
-pub(super) struct Made<K, P>(Mutex<HashMap<K, (P, u64)>>);
+pub(super) struct Made<K, P>(Mutex<Found<K, P>>);
+
+type Found<K, P> = HashMap<K, (P, u64), BuildHasherDefault<Quick>>;
+
+/// Multiplies and turns: a frame asks for a pipeline a pass, by keys that nobody chooses to fall together.
+#[derive(Default)]
+struct Quick(u64);
+
+impl Hasher for Quick {
+    fn write(&mut self, bytes: &[u8]) {
+        for bytes in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..bytes.len()].copy_from_slice(bytes);
+            self.write_u64(u64::from_le_bytes(word));
+        }
+    }
+
+    fn write_u8(&mut self, number: u8) {
+        self.write_u64(number.into());
+    }
+
+    fn write_u32(&mut self, number: u32) {
+        self.write_u64(number.into());
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        self.0 = (self.0.rotate_left(26) ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+
+    fn write_usize(&mut self, number: usize) {
+        self.write_u64(number as u64);
+    }
+
+    /// The upper bits depend on all words.
+    fn finish(&self) -> u64 {
+        self.0.rotate_left(32)
+    }
+}
 
 /// Owns a raw pipeline.
 pub(super) trait OwnsPipeline {
@@ -69,7 +106,7 @@ impl<K: Eq + Hash, P: OwnsPipeline> Made<K, P> {
         before - all.len()
     }
 
-    fn all(&self) -> MutexGuard<'_, HashMap<K, (P, u64)>> {
+    fn all(&self) -> MutexGuard<'_, Found<K, P>> {
         // A panic while the lock was held leaves a map without the pipeline that was being made.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -4,10 +4,13 @@
 //! found anything. In a band records have other numbers, by which a tile's list is ordered: pictures are the same but for the
 //! rounding of sums in another order, and that these need 32 bits where a tile of any band may have more splats than one dispatch takes.
 
+pub(crate) mod ends;
+
 use std::ops::Range;
 
 use crate::passes::plan::{
-    block_list::ListedBlocks, draws::Draw, seen::PotentiallyVisibleBlocks, tiles::TilePlan,
+    bands::ends::cost_of_rows, block_list::ListedBlocks, draws::Draw, seen::PotentiallyVisibleBlocks,
+    tiles::TilePlan,
 };
 use crate::{
     arena::{Arena, ArenaVec},
@@ -23,7 +26,7 @@ const LEAST_BYTES: u64 = 16_000_000;
 const BESIDE: u64 = 32;
 
 /// The most bands: each takes a few commands more.
-const MOST_BANDS: usize = 16;
+pub(super) const MOST_BANDS: usize = 16;
 
 /// How often other bands are tried.
 const ATTEMPTS: u32 = 8;
@@ -68,49 +71,28 @@ pub(crate) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u64 {
     }
 }
 
-/// The plans of bands of what `whole` would draw at once; none where memory is enough for that, or where bands would not help: so many
+/// Whether bands would take so much less than `whole` that they are worth their commands, where lists may take so many bytes: with less than a third beyond that, they would not.
+pub(crate) fn bands_gain(whole: &TilePlan, most_bytes: u64) -> bool {
+    3 * whole.bytes() > 4 * most_bytes
+}
+
+/// The plans of bands of what `whole` would draw at once, which end at these rows if that is enough; none where memory is enough without, or where bands would not help: so many
 /// splats in so few rows, or in no order.
 pub(crate) fn cut_into_bands<'m>(
     arena: &'m Arena,
     draws: &[Draw<'_>],
-    seen: &PotentiallyVisibleBlocks<'_>,
+    (seen, ends): (&PotentiallyVisibleBlocks<'_>, &[u32]),
     whole: &TilePlan,
     settings: &Settings,
     limits: &Limits,
 ) -> &'m [TilePlan] {
     let most_bytes = most_bytes(draws, settings.tile_memory);
-    if whole.bytes() <= most_bytes {
+    if !bands_gain(whole, most_bytes) {
         return &[];
     }
     let costs = seen.costs(arena, |box_px| whole.bytes_of_one(box_px));
     let cut = Cut { arena, draws, seen, costs, whole, settings, limits };
-    cut.within(most_bytes).unwrap_or_default()
-}
-
-/// The rows at which bands of what `whole` would draw at once are likely to end, if they take so many bytes.
-pub(crate) fn likely_ends<'m>(
-    arena: &'m Arena,
-    seen: &PotentiallyVisibleBlocks<'_>,
-    whole: &TilePlan,
-    most_bytes: u64,
-) -> &'m [u32] {
-    let Some(rows) = seen.rows() else { return &[] };
-    let costs = seen.costs(arena, |box_px| whole.bytes_of_one(box_px));
-    let (mut ends, mut begin) = (arena.growing(), rows.start);
-    for end in rows.start + 2..=rows.end {
-        if cost_of_rows(whole, costs, begin..end) > most_bytes {
-            begin = end - 1;
-            ends.push(begin);
-        }
-    }
-    ends.into_bump_slice()
-}
-
-/// About what these rows take: records, entries, and their share of the tiles.
-fn cost_of_rows(whole: &TilePlan, costs: &[[u64; 2]], rows: Range<u32>) -> u64 {
-    let of_tiles = whole.bytes_of_bins() * rows.len() as u64 / whole.rows.len().max(1) as u64;
-    let [end, start] = [rows.end, rows.start].map(|row| costs[row as usize]);
-    end[0] - start[1] + of_tiles
+    cut.within(most_bytes, ends).unwrap_or_default()
 }
 
 /// What is cut into bands.
@@ -126,9 +108,16 @@ struct Cut<'c, 'm> {
 }
 
 impl<'m> Cut<'_, 'm> {
-    /// The plans of bands that take so many bytes, or little more where that would be too many bands; none where bands gain nothing.
-    fn within(&self, most_bytes: u64) -> Option<&'m [TilePlan]> {
+    /// The plans of bands that take so many bytes, or little more where that would be too many bands; none where bands gain nothing. They end at these rows if that is enough.
+    fn within(&self, most_bytes: u64, ends: &[u32]) -> Option<&'m [TilePlan]> {
         let whole = self.whole;
+        let gains = |plans: &&[TilePlan]| {
+            plans.len() > 1 && plans.iter().all(|plan| 4 * plan.bytes() <= 3 * whole.bytes())
+        };
+        let enough = |plans: &&[TilePlan]| plans.iter().all(|plan| plan.bytes() <= most_bytes);
+        if let Some(plans) = self.plans_between(ends).filter(|plans| gains(plans) && enough(plans)) {
+            return Some(plans);
+        }
         // All bands together take at least what the whole does.
         let most_bytes = most_bytes.max(whole.bytes() / MOST_BANDS as u64);
         let mut wanted = most_bytes;
@@ -150,14 +139,23 @@ impl<'m> Cut<'_, 'm> {
                 None => wanted += wanted / 2,
             }
         }
-        let gains = |plans: &&[TilePlan]| {
-            plans.len() > 1 && plans.iter().all(|plan| 4 * plan.bytes() <= 3 * whole.bytes())
-        };
         found.filter(gains)
     }
 
     fn plan(&self, rows: Range<u32>) -> Option<TilePlan> {
         self.whole.of_rows_of_it(self.draws, self.seen, rows, self.settings, self.limits)
+    }
+
+    /// The plans of bands that end at these rows.
+    fn plans_between(&self, ends: &[u32]) -> Option<&'m [TilePlan]> {
+        let Range { start, end } = self.seen.rows()?;
+        let mut plans: ArenaVec<'_, TilePlan> = self.arena.growing();
+        let mut next = start;
+        for end in ends.iter().copied().filter(|row| start < *row && *row < end).chain([end]) {
+            plans.extend(self.plan(next..end));
+            next = end;
+        }
+        Some(self.alike(&plans))
     }
 
     /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many.
@@ -177,7 +175,12 @@ impl<'m> Cut<'_, 'm> {
                 return None;
             }
         }
-        Some(self.arena.list(plans.iter().map(|plan| plan.with_common_capacity(&plans))))
+        Some(self.alike(&plans))
+    }
+
+    /// These, with what bands have in common.
+    fn alike(&self, plans: &[TilePlan]) -> &'m [TilePlan] {
+        self.arena.list(plans.iter().map(|plan| plan.with_common_capacity(plans)))
     }
 }
 
@@ -223,7 +226,7 @@ mod tests {
             let seen = PotentiallyVisibleBlocks::new(&arena, runs, rows.end);
             let whole = TilePlan::of(draws, false, &settings, &limits).expect("room");
             let whole = whole.tightened_to_blocks(draws, &seen, &settings, &limits);
-            let cut = cut_into_bands(&arena, draws, &seen, &whole, &settings, &limits);
+            let cut = cut_into_bands(&arena, draws, (&seen, &[]), &whole, &settings, &limits);
             let of_bands: Vec<u64> = cut.iter().map(TilePlan::bytes).collect();
             println!("{count} at {side_px}: {} in bands of {of_bands:?}", whole.bytes());
             assert!((2..=4).contains(&cut.len()), "{of_bands:?} of {}", whole.bytes());

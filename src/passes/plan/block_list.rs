@@ -27,11 +27,12 @@ impl<'a> ListedBlocks<'a> {
         rows: Range<u32>,
     ) -> Self {
         let mut words = arena.growing();
-        words.reserve(HEAD_WORDS + 2 * seen.iter().map(|runs| runs.len().max(1)).sum::<usize>());
+        let most = HEAD_WORDS + 2 * seen.iter().map(|runs| runs.len().max(1)).sum::<usize>();
+        words.reserve(most.next_power_of_two().max(LEAST_WORDS));
         words.extend([rows.start, rows.end, 0]);
         let mut place = 0;
         for (number, (draw, runs)) in (0..).zip(draws.iter_mut().zip(seen)) {
-            let (before, first_word) = (place, words.len());
+            let (before, mut last) = (place, None);
             draw.constants.number_chunk(number);
             draw.constants.first_record = place * BLOCK_SPLATS;
             for run in runs.iter().filter(|run| run.touches(&rows)) {
@@ -39,12 +40,9 @@ impl<'a> ListedBlocks<'a> {
                 let all_of_level = if run.all_of_level { ALL_OF_LEVEL } else { 0 };
                 let what = run.first | all_visible | all_of_level;
                 // Neighbors of which the same is known are one.
-                let goes_on = match words[first_word..] {
-                    [.., begin, of_last] => of_last + (place - begin) == what,
-                    _ => false,
-                };
-                if !goes_on {
-                    words.extend([place, what]);
+                if last.is_none_or(|(begin, of_last)| of_last + (place - begin) != what) {
+                    words.extend_from_slice_copy(&[place, what]);
+                    last = Some((place, what));
                 }
                 place += run.blocks;
             }

@@ -11,7 +11,7 @@ use crate::passes::{
     plan::{
         blocks::{
             BlockCullView,
-            walk::{closer_runs, potentially_visible_runs},
+            walk::{Closer, closer_runs, potentially_visible_runs},
         },
         frame_constants::{focal_in_view_px, frame_constants, near_in_view},
         in_view::{center_and_half, in_view, nearest_z, wholly_in_view},
@@ -80,14 +80,14 @@ impl Draw<'_> {
         potentially_visible_runs(arena, self.chunk, &self.look())
     }
 
-    /// The same, looked at more closely, above all what reaches over some rows.
+    /// The same, looked at more closely.
     pub(crate) fn closer_runs<'m>(
         &self,
         arena: &'m Arena,
         runs: &[PotentiallyVisibleRun],
-        cuts: &[u32],
+        closer: Closer<'_>,
     ) -> &'m [PotentiallyVisibleRun] {
-        closer_runs(arena, self.chunk, &self.look(), runs, cuts)
+        closer_runs(arena, self.chunk, &self.look(), runs, closer)
     }
 
     /// How its blocks are looked at.

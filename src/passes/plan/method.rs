@@ -2,7 +2,11 @@
 
 use crate::passes::plan::few::are_few;
 use crate::passes::plan::{
-    bands::{cut_into_bands, likely_ends, most_bytes},
+    bands::{
+        bands_gain, cut_into_bands,
+        ends::{largest_of, likely_bands, likely_ends},
+        most_bytes,
+    },
     tiles::rows::rows_of_image,
 };
 use crate::passes::{
@@ -11,6 +15,7 @@ use crate::passes::{
         SplatMethod,
         bands::Band,
         block_list::ListedBlocks,
+        blocks::walk::Closer,
         culling,
         draws::{Draw, with_hard_steps, without_levels},
         invocations::Invocations,
@@ -77,6 +82,9 @@ pub(crate) fn primitives<'a>(
     }
 }
 
+/// Numbers of bands that are tried, of which blocks are looked at where they are to end.
+const MOST_TRIES: u64 = 3;
+
 /// Bands of all these splats; `None` where they have no room.
 fn bands<'a>(
     arena: &'a Arena,
@@ -93,7 +101,7 @@ fn bands<'a>(
         PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
-    let (seen, whole) = if splats.iter().any(|draw| draw.levels.is_some()) {
+    let (seen, whole, ends) = if splats.iter().any(|draw| draw.levels.is_some()) {
         // Of levels of detail there may be many more splats than there is room for; those that may be drawn are few.
         let seen = seen();
         if !culling::list_has_room(seen.block_count(), limits) {
@@ -101,7 +109,7 @@ fn bands<'a>(
         }
         let of_blocks = TilePlan::of_blocks(splats, &seen, rows.clone(), culls_hidden, settings, limits);
         let whole = of_blocks.or_else(|| TilePlan::of(splats, culls_hidden, settings, limits))?;
-        (seen, whole)
+        (seen, whole, &[][..])
     } else {
         let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
         // Bands are made of listed splats, too.
@@ -121,21 +129,30 @@ fn bands<'a>(
         let rough = seen();
         let tight = tightened(&rough);
         if tight.bytes() <= most_bytes {
-            (rough, tight)
+            (rough, tight, &[][..])
         } else {
-            // Most of what is listed for nothing lies at silhouettes. Where more than that has no room, rows matter where bands may end.
-            let looked_into = |seen: &PotentiallyVisibleBlocks<'_>, ends: &[u32]| {
+            let looked_into = |seen: &PotentiallyVisibleBlocks<'_>, closer: Closer<'_>| {
                 let runs = splats.iter().zip(seen.chunks);
-                let runs = arena.list(runs.map(|(draw, runs)| draw.closer_runs(arena, runs, ends)));
+                let runs = arena.list(runs.map(|(draw, runs)| draw.closer_runs(arena, runs, closer)));
                 PotentiallyVisibleBlocks::new(arena, runs, rows.end)
             };
-            let close = looked_into(&rough, &[]);
+            let close = looked_into(&rough, Closer::InPart);
             let tight = tightened(&close);
-            if tight.bytes() <= most_bytes {
-                (close, tight)
+            if polygons || !bands_gain(&tight, most_bytes) {
+                (close, tight, &[][..])
             } else {
-                let closest = looked_into(&close, likely_ends(arena, &close, &tight, most_bytes));
-                (closest, tightened(&closest))
+                let (mut closest, mut ends) = (looked_into(&close, Closer::Tall), &[][..]);
+                let mut bands = likely_bands(&tight, most_bytes);
+                for _ in 0..MOST_TRIES {
+                    ends = likely_ends(arena, &closest, &tight, bands);
+                    closest = looked_into(&closest, Closer::Cut(ends));
+                    let largest = largest_of(arena, &closest, &tight, ends);
+                    if largest <= most_bytes {
+                        break;
+                    }
+                    bands = (bands + 1).max((bands * largest).div_ceil(most_bytes.max(1)));
+                }
+                (closest, tightened(&closest), ends)
             }
         }
     };
@@ -145,7 +162,7 @@ fn bands<'a>(
     // Polygons may be drawn between two passes over the whole image.
     let cut = match polygons {
         true => &[],
-        false => cut_into_bands(arena, splats, &seen, &whole, settings, limits),
+        false => cut_into_bands(arena, splats, (&seen, ends), &whole, settings, limits),
     };
     // A splat that is large for a band alone would be the graphics pipeline's, too.
     match cut.is_empty() || cut.iter().any(left_to_others) {

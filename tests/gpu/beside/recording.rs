@@ -1,5 +1,6 @@
 //! What recording a frame costs the processor.
 
+mod alone;
 mod objects_cost;
 mod unrecorded;
 

@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-use super::*;
+use super::{walk::Closer, *};
 use crate::{
     arena::Arena,
     math::{random::SplitMix, size::half_image},
@@ -210,7 +210,7 @@ fn runs_leave_out_no_more_than_their_blocks() {
                         let mut runs = draw.potentially_visible_runs(&arena);
                         if closely {
                             let all_rows = arena.list(0..SIZE_PX[1].div_ceil(BAND_ROW));
-                            runs = draw.closer_runs(&arena, runs, all_rows);
+                            runs = draw.closer_runs(&arena, runs, Closer::Cut(all_rows));
                         }
                         most_runs = most_runs.max(runs.len());
                         let of_runs: u32 = runs.iter().map(|run| run.count).sum();

@@ -7,11 +7,44 @@ use crate::{
     arena::{Arena, ArenaVec},
     passes::plan::seen::PotentiallyVisibleRun,
     prepare::{Block, CHILDREN, Chunk, Quad},
+    shaders::config::BAND_ROW,
 };
 
-/// Looks at bounds of a chunk, beside those on top; and how many more each time where memory for lists is short, so that it matters how many splats there are, and then in which rows.
+/// Looks at bounds of a chunk, beside those on top.
 const MOST_LOOKS: usize = 256;
-const MOST_CLOSER_LOOKS: usize = 4096;
+
+/// Runs in place of which there are to be their parts, for what that tells; where memory for lists is short, so that it matters how many splats there are, and then in which rows.
+#[derive(Clone, Copy)]
+pub(crate) enum Closer<'a> {
+    /// Those of which something may be hidden: most of what is listed for nothing lies at silhouettes.
+    InPart,
+    /// Those that reach over many rows.
+    Tall,
+    /// Those that reach over one of these rows, at which bands are to end.
+    Cut(&'a [u32]),
+}
+
+/// A run is tall that reaches over more than one of so many parts of the image.
+const TALL: u32 = 8;
+
+impl Closer<'_> {
+    /// Looks at a chunk.
+    fn most_looks(self) -> usize {
+        match self {
+            Self::InPart => 4096,
+            Self::Tall => 256,
+            Self::Cut(_) => 4096,
+        }
+    }
+
+    fn wants(self, run: &PotentiallyVisibleRun, rows: u32) -> bool {
+        match self {
+            Self::InPart => !run.all_seen,
+            Self::Tall => run.rows.len() as u32 * TALL > rows,
+            Self::Cut(ends) => ends.iter().any(|row| run.rows.start < *row && *row < run.rows.end),
+        }
+    }
+}
 
 /// The blocks of a chunk some of whose splats may be seen, in their order. What is left out here, every stage that sets splats up
 /// would leave out: what faces away, what is nearer than the near plane, and what is beside the image, by the bounds of
@@ -39,26 +72,27 @@ pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
         return top.into_bump_slice();
     }
     let Some(level) = chunk.tree.levels.len().checked_sub(1) else { return &[] };
+    top.reserve(chunk.tree.levels[level].len() * CHILDREN);
     look_at_quads(&mut top, chunk, (level, 0..usize::MAX), (look, &look.eye()));
     looked_into(arena, chunk, look, top, MOST_LOOKS, |run| !run.all_seen)
 }
 
-/// These runs, in place of which there are their parts where they are not seen as wholes, or reach over one of these rows, about which a band may end.
+/// These runs, and in place of some of them their parts.
 pub(in crate::passes::plan) fn closer_runs<'m>(
     arena: &'m Arena,
     chunk: &Chunk,
     look: &BlockCullView<'_>,
     runs: &[PotentiallyVisibleRun],
-    cuts: &[u32],
+    closer: Closer<'_>,
 ) -> &'m [PotentiallyVisibleRun] {
-    if chunk.is_dynamic() {
-        return arena.list(runs.iter().cloned());
-    }
-    let is_cut =
-        |run: &PotentiallyVisibleRun| cuts.iter().any(|row| run.rows.start < *row && *row < run.rows.end);
     let mut front = arena.growing();
+    front.reserve(runs.len());
     front.extend(runs.iter().cloned());
-    looked_into(arena, chunk, look, front, MOST_CLOSER_LOOKS, |run| !run.all_seen || is_cut(run))
+    if chunk.is_dynamic() {
+        return front.into_bump_slice();
+    }
+    let rows = (look.bound.size_px[1] as u32).div_ceil(BAND_ROW);
+    looked_into(arena, chunk, look, front, closer.most_looks(), |run| closer.wants(run, rows))
 }
 
 /// Looks at some quads of a level of a chunk's tree.
@@ -72,7 +106,6 @@ fn look_at_quads(
     let each = CHILDREN.pow(level as u32);
     let end = chunk.blocks.len() as u32;
     let range = range.start..range.end.min(quads.len());
-    runs.reserve(range.len() * CHILDREN);
     for number in range {
         let first = number * CHILDREN * each;
         let blocks = if level == 0 { &chunk.blocks[first..] } else { &[] };
@@ -103,6 +136,7 @@ fn looked_into<'m>(
         }
         looks -= chosen * CHILDREN;
         let (mut share, mut below) = (Share { wanted, chosen, met: 0 }, arena.growing());
+        below.reserve(front.len() + chosen * (CHILDREN - 1));
         for run in front {
             if is_wanted(&run) && share.next() {
                 let quad = run.first as usize / each;
