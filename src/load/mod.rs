@@ -40,7 +40,12 @@ mod text;
 
 use std::path::Path;
 
-use crate::{error::Result, notes::Deed, progress::Progress};
+use crate::{
+    error::{Error, Result},
+    notes::Deed,
+    progress::Progress,
+    scene::Object,
+};
 use input::Input;
 
 pub use foreign::runs_foreign_decoder;
@@ -65,6 +70,26 @@ pub use text::{Column, Columns};
 /// its content is not what its format demands, or is of a format that surfel does not know.
 pub fn load(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<Loaded> {
     parse(source::read(path, &options.limits)?, options, progress)
+}
+
+/// The splats of a file, ready to be drawn: without those that can't be.
+///
+/// # Errors
+/// As [`load`]; [`crate::ErrorKind::Input`] for a file of something else.
+pub fn object(path: &Path) -> Result<Object> {
+    let name = path.display().to_string();
+    match load(path, &LoadOptions::default(), &())?.model {
+        Model::Splats { mut splats, closed } => {
+            splats.drop_defective();
+            Ok(Object { name, splats, closed })
+        }
+        other => {
+            let has = other.contents();
+            let problem =
+                format!("has {has}: expected splats; surfel convert makes them of meshes and points");
+            Err(Error::input(path, "all of it", problem))
+        }
+    }
 }
 
 /// As [`load`], of a file that is in memory. `name` is its name in messages, and its ending tells the format where

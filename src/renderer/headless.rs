@@ -30,7 +30,7 @@ use crate::{
 };
 
 /// How a [`Headless`] is set up.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct HeadlessOptions {
     /// Whether the validation layer watches.
     pub validation: Validation,

@@ -35,7 +35,7 @@ impl Buffer {
     /// A buffer with memory of its own.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] for a size of 0; whatever the driver or the allocator answers.
+    /// [`crate::ErrorKind::Option`] for a size of 0, for no usage, and for one that not every device has; whatever the driver or the allocator answers.
     pub fn new(device: &Device, desc: BufferDesc<'_>, memory: MemoryUse) -> Result<Self> {
         let mut buffer = Self::unbound(device, desc)?;
         let raw = buffer.raw;
@@ -141,13 +141,24 @@ impl Buffer {
             let problem = format!("a buffer of {} bytes: the device makes at most {largest}", desc.size);
             return Err(Error::option(desc.name, problem));
         }
+        if desc.usage.is_empty() || !usages_of_all().contains(desc.usage) {
+            return Err(Error::option(desc.name, format!("a buffer for {:?}", desc.usage)));
+        }
         let info = vk::BufferCreateInfo::default().size(desc.size).usage(desc.usage);
-        // SAFETY: the device is alive; the size is above 0 and within the device's.
+        // SAFETY: the device is alive; the size is above 0 and within the device's; every device has the usage.
         let raw = unsafe { device.raw().create_buffer(&info, None) }.of_call("vkCreateBuffer", desc.name)?;
         device.set_name(raw, desc.name);
         let (size, texels) = (desc.size, vk::BufferView::null());
         Ok(Self { device: device.clone(), raw, texels, size, allocation: None })
     }
+}
+
+/// The usages that need no feature: those of Vulkan 1.0.
+fn usages_of_all() -> vk::BufferUsageFlags {
+    use vk::BufferUsageFlags as U;
+    let read =
+        U::TRANSFER_SRC | U::UNIFORM_TEXEL_BUFFER | U::UNIFORM_BUFFER | U::INDEX_BUFFER | U::VERTEX_BUFFER;
+    read | U::TRANSFER_DST | U::STORAGE_TEXEL_BUFFER | U::STORAGE_BUFFER | U::INDIRECT_BUFFER
 }
 
 /// Bytes of a texel of the formats that buffers are read in: some of those that Vulkan demands of every device.

@@ -25,16 +25,24 @@ pub struct ComputePipeline(Owned<vk::Pipeline>);
 impl ComputePipeline {
     /// Compiles a pipeline.
     ///
+    /// # Safety
+    /// The SPIR-V is valid for Vulkan 1.3, as `spirv-val` tells; it needs no feature that the device was not opened with, and has no other bindings and push constants than the layout. Cache
+    /// and layout are of this device.
+    ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn new(device: &Device, cache: &PipelineCache, desc: &ComputePipelineDesc<'_>) -> Result<Self> {
+    pub unsafe fn new(
+        device: &Device,
+        cache: &PipelineCache,
+        desc: &ComputePipelineDesc<'_>,
+    ) -> Result<Self> {
         let stage = CompiledStage::new(device, desc.stage)?;
         let constants = stage.specialization();
         let info = vk::ComputePipelineCreateInfo::default()
             .flags(device.pipeline_flags())
             .stage(stage.info(vk::ShaderStageFlags::COMPUTE, &constants))
             .layout(desc.layout.raw());
-        // SAFETY: everything the info points to lives until the call returns and belongs to this device.
+        // SAFETY: everything the info points to lives until the call returns and belongs to this device; the rest is this function's contract.
         let made = unsafe { device.raw().create_compute_pipelines(cache.raw(), &[info], None) };
         let raw = made.map_err(|(_, result)| result).of_call("vkCreateComputePipelines", desc.name)?[0];
         Ok(Self(device.own(raw, desc.name, Retired::Pipeline)))

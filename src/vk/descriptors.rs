@@ -14,13 +14,17 @@ use super::{
     descriptor::{Descriptor, Info},
     device::Device,
     garbage::Retired,
+    layout::STAGES,
     owned::Owned,
     pool_sizes::PoolSizes,
     result::VkResultExt,
     sampler::Sampler,
     stand_ins::StandIns,
 };
-use crate::{error::Result, inline_vec::InlineVec};
+use crate::{
+    error::{Error, Result},
+    inline_vec::InlineVec,
+};
 
 /// Bindings that are written by one call.
 const AT_ONCE: usize = 8;
@@ -53,12 +57,19 @@ impl SetLayout {
     /// A set of bindings numbered from 0.
     ///
     /// # Errors
-    /// Whatever the driver answers.
+    /// [`crate::ErrorKind::Option`] for a binding of another kind than those of Vulkan 1.0, or for other stages than vertices, fragments and compute; whatever the driver answers.
     ///
     /// # Panics
     /// With more than 64 bindings.
     pub fn new(device: &Device, name: &str, bindings: &[Binding]) -> Result<Self> {
         assert!(bindings.len() <= MOST_BINDINGS, "{name}: {} bindings", bindings.len());
+        let is_known = |binding: &Binding| {
+            let kinds = vk::DescriptorType::COMBINED_IMAGE_SAMPLER..=vk::DescriptorType::STORAGE_BUFFER;
+            kinds.contains(&binding.kind) && STAGES.contains(binding.stages)
+        };
+        if let Some(other) = bindings.iter().find(|binding| !is_known(binding)) {
+            return Err(Error::option(name, format!("a binding of {:?} for {:?}", other.kind, other.stages)));
+        }
         let filtered = |binding: &Binding| binding.kind == vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
         let sampler = bindings.iter().any(filtered).then(|| Sampler::new(device, name)).transpose()?;
         let samplers = [sampler.as_ref().map_or(vk::Sampler::null(), Sampler::raw)];
@@ -89,6 +100,11 @@ impl SetLayout {
     pub fn with_stand_ins(mut self, stand_ins: &Arc<StandIns>, integers: &[u32]) -> Self {
         self.stand_ins = Some((Arc::clone(stand_ins), integers.to_vec()));
         self
+    }
+
+    /// Whether it is of this device.
+    pub(super) fn is_of(&self, device: &Device) -> bool {
+        self.owned.device.is(device)
     }
 
     /// The raw layout.
@@ -148,6 +164,9 @@ impl DescriptorPool {
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, name: &str, sizes: PoolSizes) -> Result<Self> {
+        if sizes.sets == 0 {
+            return Err(Error::option(name, "a pool of no sets"));
+        }
         let kinds = sizes.kinds().into_iter().filter(|(_, count)| *count > 0);
         let size = |(kind, count)| vk::DescriptorPoolSize::default().ty(kind).descriptor_count(count);
         let of_kinds: Vec<_> = kinds.map(size).collect();

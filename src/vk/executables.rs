@@ -51,10 +51,13 @@ impl Device {
 
 /// The programs that a pipeline became.
 ///
+/// # Safety
+/// The pipeline is of this device, and alive.
+///
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] if the device was not opened with [`Device::with_executables`]; whatever the
 /// driver answers.
-pub fn executables(device: &Device, pipeline: vk::Pipeline) -> Result<Vec<Executable>> {
+pub unsafe fn executables(device: &Device, pipeline: vk::Pipeline) -> Result<Vec<Executable>> {
     if !device.captures_executables() {
         let problem = "the device was not opened with pipeline executable properties";
         return Err(Error::option("executables", problem));
@@ -62,7 +65,7 @@ pub fn executables(device: &Device, pipeline: vk::Pipeline) -> Result<Vec<Execut
     let api = khr::pipeline_executable_properties::Device::new(device.instance().raw(), device.raw());
     let name = &device.facts().name;
     let info = vk::PipelineInfoKHR::default().pipeline(pipeline);
-    // SAFETY: the extension is enabled; the pipeline is alive, of this device, and was made to be asked.
+    // SAFETY: the extension is enabled; this function's contract; all pipelines of the device are made to be asked.
     let all = unsafe { api.get_pipeline_executable_properties(&info) }
         .of_call("vkGetPipelineExecutablePropertiesKHR", name)?;
     let mut found = Vec::new();

@@ -87,9 +87,16 @@ pub struct GraphicsPipeline(Owned<vk::Pipeline>);
 impl GraphicsPipeline {
     /// Compiles a pipeline.
     ///
+    /// # Safety
+    /// As [`super::ComputePipeline::new`], of both stages, which agree on what goes from one to the other; the device draws into these formats with so many samples.
+    ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn new(device: &Device, cache: &PipelineCache, desc: &GraphicsPipelineDesc<'_>) -> Result<Self> {
+    pub unsafe fn new(
+        device: &Device,
+        cache: &PipelineCache,
+        desc: &GraphicsPipelineDesc<'_>,
+    ) -> Result<Self> {
         let vertex = CompiledStage::new(device, desc.vertex)?;
         let fragment = CompiledStage::new(device, desc.fragment)?;
         let (vertex_constants, fragment_constants) = (vertex.specialization(), fragment.specialization());
@@ -161,7 +168,7 @@ impl GraphicsPipeline {
             .dynamic_state(&dynamic)
             .layout(desc.layout.raw())
             .push_next(&mut rendering);
-        // SAFETY: everything the info points to lives until the call returns and belongs to this device.
+        // SAFETY: everything the info points to lives until the call returns and belongs to this device; the rest is this function's contract.
         let made = unsafe { device.raw().create_graphics_pipelines(cache.raw(), &[info], None) };
         let raw = made.map_err(|(_, result)| result).of_call("vkCreateGraphicsPipelines", desc.name)?[0];
         Ok(Self(device.own(raw, desc.name, Retired::Pipeline)))

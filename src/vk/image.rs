@@ -68,7 +68,7 @@ impl Image {
     /// An image with device memory of its own.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] for a size that the device doesn't have; whatever the driver or the allocator answers.
+    /// [`crate::ErrorKind::Option`] for a size, a format or a usage that the device doesn't have; whatever the driver or the allocator answers.
     pub fn new(device: &Device, desc: ImageDesc<'_>) -> Result<Self> {
         let mut image = Self::unbound(device, desc, &desc.create_info())?;
         // SAFETY: the image was just made from this device.
@@ -137,8 +137,11 @@ impl Image {
             let problem = format!("an image of {width}x{height} pixels: the device has 1 to {side} a side");
             return Err(Error::option(desc.name, problem));
         }
-        // SAFETY: the device is alive; the size is within its limits; formats and usages are those that
-        // `DeviceFacts` asks for or Vulkan demands of every device.
+        if !is_made(device, info) {
+            let problem = format!("an image of {:?} for {:?}: the device has none", desc.format, desc.usage);
+            return Err(Error::option(desc.name, problem));
+        }
+        // SAFETY: the device is alive; the size is within its limits; it has such images.
         let raw = unsafe { device.raw().create_image(info, None) }.of_call("vkCreateImage", desc.name)?;
         device.set_name(raw, desc.name);
         Ok(Self {
@@ -159,6 +162,34 @@ impl Image {
         // SAFETY: the image is alive and bound.
         self.view = unsafe { view(&self.device, self.raw, self.format, desc.aspect(), desc.name) }?;
         Ok(())
+    }
+}
+
+/// Whether a device makes such images: of colors that are not compressed, or of depths in 32 bits, so that a view is of their one aspect.
+fn is_made(device: &Device, info: &vk::ImageCreateInfo<'_>) -> bool {
+    use vk::ImageUsageFlags as U;
+    let attached = U::COLOR_ATTACHMENT | U::DEPTH_STENCIL_ATTACHMENT | U::INPUT_ATTACHMENT;
+    let usages = attached | U::TRANSFER_SRC | U::TRANSFER_DST | U::SAMPLED | U::STORAGE;
+    let colors = vk::Format::R4G4_UNORM_PACK8..=vk::Format::E5B9G9R9_UFLOAT_PACK32;
+    let is_known = colors.contains(&info.format) || info.format == vk::Format::D32_SFLOAT;
+    let (instance, physical) = (device.instance().raw(), device.physical());
+    is_known && !info.usage.is_empty() && usages.contains(info.usage) && {
+        // SAFETY: the device is alive; the format is one of Vulkan 1.0, and so are the usages.
+        unsafe {
+            let (kind, tiling, usage, flags) = (info.image_type, info.tiling, info.usage, info.flags);
+            instance.get_physical_device_image_format_properties(
+                physical,
+                info.format,
+                kind,
+                tiling,
+                usage,
+                flags,
+            )
+        }
+        .is_ok_and(|most| {
+            let vk::Extent3D { width, height, .. } = most.max_extent;
+            info.extent.width <= width && info.extent.height <= height
+        })
     }
 }
 

@@ -3,7 +3,16 @@
 use ash::vk;
 
 use super::{descriptors::SetLayout, device::Device, garbage::Retired, owned::Owned, result::VkResultExt};
-use crate::error::Result;
+use crate::error::{Error, Result};
+
+/// What every device has: bytes that are pushed, and sets; and the stages that we use.
+const MOST_PUSH_BYTES: u32 = 128;
+const MOST_SETS: usize = 4;
+pub(super) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+    vk::ShaderStageFlags::VERTEX.as_raw()
+        | vk::ShaderStageFlags::FRAGMENT.as_raw()
+        | vk::ShaderStageFlags::COMPUTE.as_raw(),
+);
 
 /// The sets and push constants that pipelines share.
 pub struct PipelineLayout {
@@ -15,7 +24,7 @@ impl PipelineLayout {
     /// A layout of `sets` (set 0 first) and `push_bytes` of push constants seen by `push_stages`.
     ///
     /// # Errors
-    /// Whatever the driver answers.
+    /// [`crate::ErrorKind::Option`] for more than every device has, and for sets of another device; whatever the driver answers.
     pub fn new(
         device: &Device,
         name: &str,
@@ -23,6 +32,16 @@ impl PipelineLayout {
         push_bytes: u32,
         push_stages: vk::ShaderStageFlags,
     ) -> Result<Self> {
+        let push_fits = push_bytes <= MOST_PUSH_BYTES
+            && push_bytes.is_multiple_of(4)
+            && (push_bytes == 0 || !push_stages.is_empty() && STAGES.contains(push_stages));
+        if sets.len() > MOST_SETS || !push_fits {
+            let problem = format!("{} sets, {push_bytes} bytes for {push_stages:?}", sets.len());
+            return Err(Error::option(name, problem));
+        }
+        if !sets.iter().all(|set| set.is_of(device)) {
+            return Err(Error::option(name, "a set of another device"));
+        }
         let sets: Vec<_> = sets.iter().map(|set| set.raw()).collect();
         let push = [vk::PushConstantRange::default().stage_flags(push_stages).size(push_bytes)];
         let push: &[_] = if push_bytes > 0 { &push } else { &[] };

@@ -17,6 +17,9 @@ use crate::{
 /// More than all pipelines of surfel take: what is larger is something else.
 const MOST_BYTES: u64 = 1 << 28;
 
+/// Bytes behind the data.
+const SUM_BYTES: usize = 8;
+
 /// Compiled pipelines, in memory and, where a folder was given, on disk.
 pub struct PipelineCache {
     owned: Owned<vk::PipelineCache>,
@@ -25,7 +28,7 @@ pub struct PipelineCache {
 
 impl PipelineCache {
     /// Opens the cache of this device and driver in `folder`; `None` keeps it in memory only. A file that is
-    /// missing, without a whole header or of another driver counts as absent: the cache then starts empty.
+    /// missing, not as it was written or of another driver counts as absent: the cache then starts empty.
     ///
     /// # Errors
     /// Whatever the driver answers.
@@ -36,13 +39,10 @@ impl PipelineCache {
         let stored = file.as_ref().and_then(read).unwrap_or_default();
         // SAFETY: the device is alive.
         let properties = unsafe { device.instance().raw().get_physical_device_properties(device.physical()) };
-        let data: &[u8] = match fits(&stored, &properties) {
-            true => &stored,
-            false => &[],
-        };
+        let data = as_written(&stored).filter(|data| fits(data, &properties)).unwrap_or_default();
         let create = |data: &[u8]| {
             let info = vk::PipelineCacheCreateInfo::default().initial_data(data);
-            // SAFETY: the data has the header of this very driver and device.
+            // SAFETY: the data is as a driver gave it, and has the header of this very driver and device.
             unsafe { device.raw().create_pipeline_cache(&info, None) }
         };
         let made = match create(data) {
@@ -78,7 +78,10 @@ impl PipelineCache {
             let number = NEXT.fetch_add(1, Ordering::Relaxed);
             let unfinished = file.with_extension(format!("{}.{number}.tmp", std::process::id()));
             let written = std::fs::File::create(&unfinished)
-                .and_then(|mut out| out.write_all(&data))
+                .and_then(|mut out| {
+                    out.write_all(&data)?;
+                    out.write_all(&sum(&data))
+                })
                 .and_then(|()| std::fs::rename(&unfinished, file));
             if written.is_err() {
                 let _ = std::fs::remove_file(&unfinished);
@@ -93,6 +96,20 @@ impl PipelineCache {
 fn file_name(facts: &DeviceFacts) -> String {
     let [vendor, device, driver] = facts.ids;
     format!("pipelines-{vendor:08x}-{device:08x}-{driver:08x}.bin")
+}
+
+/// What tells data that was damaged from what was written (FNV-1a): drivers need not look.
+fn sum(data: &[u8]) -> [u8; SUM_BYTES] {
+    let sum = data
+        .iter()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3));
+    sum.to_le_bytes()
+}
+
+/// The data of a file, if it is what was written.
+fn as_written(stored: &[u8]) -> Option<&[u8]> {
+    let (data, of_file) = stored.split_at_checked(stored.len().checked_sub(SUM_BYTES)?)?;
+    (of_file == sum(data)).then_some(data)
 }
 
 /// Whether stored data starts with the header (Vulkan 1.3, `VkPipelineCacheHeaderVersionOne`) of this device.
@@ -110,6 +127,19 @@ fn fits(data: &[u8], properties: &vk::PhysicalDeviceProperties) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_that_was_damaged_or_cut_off_counts_as_absent() {
+        let data: Vec<u8> = (0..100).collect();
+        let stored = [&data[..], &sum(&data)].concat();
+        assert_eq!(as_written(&stored), Some(&data[..]));
+        for place in 0..stored.len() {
+            let mut damaged = stored.clone();
+            damaged[place] ^= 4;
+            assert_eq!(as_written(&damaged), None, "byte {place}");
+            assert_eq!(as_written(&stored[..place]), None, "{place} bytes");
+        }
+    }
 
     #[test]
     fn only_a_whole_header_of_the_same_device_fits() {

@@ -5,7 +5,7 @@ use std::ops::Deref;
 use ash::vk;
 
 use super::{device::Device, garbage::Retired, owned::Owned, result::VkResultExt};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// A pool of timestamps.
 pub struct Timestamps {
@@ -168,7 +168,10 @@ pub struct QueryPool {
 
 impl QueryPool {
     fn new(device: &Device, name: &str, info: vk::QueryPoolCreateInfo<'_>) -> Result<Self> {
-        // SAFETY: the device is alive and has the feature, see the callers.
+        if info.query_count == 0 {
+            return Err(Error::option(name, "a pool of no queries"));
+        }
+        // SAFETY: the device is alive and has the feature, see the callers; there are some.
         let raw =
             unsafe { device.raw().create_query_pool(&info, None) }.of_call("vkCreateQueryPool", name)?;
         let owned = device.own(raw, name, Retired::QueryPool);

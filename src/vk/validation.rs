@@ -11,9 +11,10 @@ use super::{
 use crate::error::Result;
 
 /// Whether the validation layer watches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Validation {
     /// No layer is loaded.
+    #[default]
     Off,
     /// Core, synchronization and best-practices checks. Hazards across submits too where
     /// [`arm_validation_across_submits`] came first.

@@ -16,8 +16,12 @@ fn example(name: &str) -> PathBuf {
 fn every_example_leaves_its_pictures_and_the_layer_is_silent() {
     let folder = TempDir::new().unwrap();
     let at = |name: &str| folder.child(name);
-    let runs: [(&str, Vec<String>, Vec<&str>); 6] = [
+    let relief = surfel::load::builtin::relief(5000);
+    surfel::save::splats(&at("relief.ply"), &relief.splats, relief.closed, &()).unwrap();
+    let splats = "relief.ply".to_owned();
+    let runs: [(&str, Vec<String>, Vec<&str>); 7] = [
         ("minimal", vec!["minimal.png".to_owned()], vec!["minimal.png"]),
+        ("minimal", vec!["of_file.png".to_owned(), splats], vec!["of_file.png"]),
         ("turntable", vec!["2".to_owned(), "turn%04d.png".to_owned()], vec!["turn0000.png", "turn0001.png"]),
         ("embed", vec!["embed.png".to_owned()], vec!["embed.png"]),
         ("custom_pass", vec!["custom_pass.png".to_owned()], vec!["custom_pass.png"]),
@@ -40,5 +44,5 @@ fn every_example_leaves_its_pictures_and_the_layer_is_silent() {
         }
         tried += 1;
     }
-    assert_eq!(tried, 6);
+    assert_eq!(tried, 7);
 }

@@ -239,7 +239,8 @@ impl Shaders {
                 attachments: key.attachments,
                 layout: self.layout(key.layout)?,
             };
-            GraphicsPipeline::new(&self.device, &self.cache, &desc)
+            // SAFETY: shaders of `glsl/` with their own layouts, on a device that has what they need; keys have formats that it draws into.
+            unsafe { GraphicsPipeline::new(&self.device, &self.cache, &desc) }
         })
     }
 
@@ -258,7 +259,8 @@ impl Shaders {
                 stage: key.shader.stage(&key.constants),
                 layout: self.layout(key.layout)?,
             };
-            ComputePipeline::new(&self.device, &self.cache, &desc)
+            // SAFETY: as above.
+            unsafe { ComputePipeline::new(&self.device, &self.cache, &desc) }
         })
     }
 

@@ -85,7 +85,8 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
         stage: stage(&shaders::LIST_SCAN_COMP),
         layout: &compute_layout,
     };
-    keep(Box::new(ComputePipeline::new(&device, &cache, &desc).unwrap()));
+    // SAFETY: a shader of `glsl/` with its layout.
+    keep(Box::new(unsafe { ComputePipeline::new(&device, &cache, &desc) }.unwrap()));
     let desc = GraphicsPipelineDesc {
         name: "graphics",
         vertex: stage(&shaders::FULLSCREEN_VERT),
@@ -98,7 +99,8 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
         attachments: surfel::vk::Attachments::default(),
         layout: &layout,
     };
-    keep(Box::new(GraphicsPipeline::new(&device, &cache, &desc).unwrap()));
+    // SAFETY: as above.
+    keep(Box::new(unsafe { GraphicsPipeline::new(&device, &cache, &desc) }.unwrap()));
     let pool =
         DescriptorPool::new(&device, "pool", PoolSizes { sets: 1, buffers: 2, ..PoolSizes::default() })
             .unwrap();

@@ -84,8 +84,9 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<&str>) -> Vec
         // ELLIPSES, FILTER of glsl/inc/variant.glsl, PERTURBED_FORMULA of glsl/inc/perturb.glsl.
         let constants = [(0, u32::from(ellipses)), (2, u32::from(filter)), (31, wrong.map_or(0, number_of))];
         let stage = Stage { name: "probe", spirv: &spirv, constants: &constants };
-        ComputePipeline::new(device, &cache, &ComputePipelineDesc { name: "probe", stage, layout: &layout })
-            .unwrap()
+        let desc = ComputePipelineDesc { name: "probe", stage, layout: &layout };
+        // SAFETY: compiled for this layout.
+        unsafe { ComputePipeline::new(device, &cache, &desc) }.unwrap()
     };
     let pipelines =
         [[pipeline(false, false), pipeline(false, true)], [pipeline(true, false), pipeline(true, true)]];

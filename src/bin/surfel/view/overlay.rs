@@ -91,22 +91,25 @@ impl OverlayPass {
             spirv: shader.spirv(),
             constants: &[],
         };
-        let pipeline = GraphicsPipeline::new(
-            device,
-            cache,
-            &GraphicsPipelineDesc {
-                name: "overlay",
-                vertex: stage(&shaders::VIEW_OVERLAY_VERT),
-                fragment: stage(&shaders::VIEW_OVERLAY_FRAG),
-                topology: vk::PrimitiveTopology::TRIANGLE_LIST,
-                cull_clockwise: false,
-                color_formats: &[format],
-                blend: Blend::Over,
-                depth: None,
-                attachments: surfel::vk::Attachments::default(),
-                layout: &layout,
-            },
-        )?;
+        // SAFETY: shaders of `glsl/` with their layout; every device draws into the formats of windows that it has.
+        let pipeline = unsafe {
+            GraphicsPipeline::new(
+                device,
+                cache,
+                &GraphicsPipelineDesc {
+                    name: "overlay",
+                    vertex: stage(&shaders::VIEW_OVERLAY_VERT),
+                    fragment: stage(&shaders::VIEW_OVERLAY_FRAG),
+                    topology: vk::PrimitiveTopology::TRIANGLE_LIST,
+                    cull_clockwise: false,
+                    color_formats: &[format],
+                    blend: Blend::Over,
+                    depth: None,
+                    attachments: surfel::vk::Attachments::default(),
+                    layout: &layout,
+                },
+            )
+        }?;
         Ok(Self {
             device: device.clone(),
             set,

@@ -102,22 +102,25 @@ impl Show {
             spirv: shader.spirv(),
             constants,
         };
-        let pipeline = GraphicsPipeline::new(
-            &self.device,
-            cache,
-            &GraphicsPipelineDesc {
-                name: "window",
-                vertex: stage(&shaders::FULLSCREEN_VERT, &[]),
-                fragment: stage(&shaders::VIEW_SHOW_FRAG, &constants),
-                topology: vk::PrimitiveTopology::TRIANGLE_LIST,
-                cull_clockwise: false,
-                color_formats: &[self.format],
-                blend: Blend::Replace,
-                depth: None,
-                attachments: surfel::vk::Attachments::default(),
-                layout: &self.layout,
-            },
-        )?;
+        // SAFETY: shaders of `glsl/` with their layout; every device draws into the formats of windows that it has.
+        let pipeline = unsafe {
+            GraphicsPipeline::new(
+                &self.device,
+                cache,
+                &GraphicsPipelineDesc {
+                    name: "window",
+                    vertex: stage(&shaders::FULLSCREEN_VERT, &[]),
+                    fragment: stage(&shaders::VIEW_SHOW_FRAG, &constants),
+                    topology: vk::PrimitiveTopology::TRIANGLE_LIST,
+                    cull_clockwise: false,
+                    color_formats: &[self.format],
+                    blend: Blend::Replace,
+                    depth: None,
+                    attachments: surfel::vk::Attachments::default(),
+                    layout: &self.layout,
+                },
+            )
+        }?;
         let raw = pipeline.raw();
         self.made.push((constants, pipeline));
         Ok(raw)

@@ -71,7 +71,9 @@ pub fn rows_here(
     let mut rows = Vec::new();
     for (_, recipe) in pipelines {
         let made = recipe.make(&shaders)?;
-        let programs = made.map(|pipeline| executables(&device, pipeline)).transpose()?.unwrap_or_default();
+        // SAFETY: the shaders own what they made, and are alive.
+        let programs =
+            made.map(|pipeline| unsafe { executables(&device, pipeline) }).transpose()?.unwrap_or_default();
         let row = |program: surfel::vk::Executable| IsaRow {
             device: device.facts().name.clone(),
             executable: program.name,
