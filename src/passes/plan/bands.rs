@@ -73,7 +73,7 @@ pub(crate) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u64 {
 
 /// Whether bands would take so much less than `whole` that they are worth their commands, where lists may take so many bytes: with less than a third beyond that, they would not.
 pub(crate) fn bands_gain(whole: &TilePlan, most_bytes: u64) -> bool {
-    3 * whole.bytes() > 4 * most_bytes
+    whole.bytes() > most_bytes.saturating_add(most_bytes / 3)
 }
 
 /// The plans of bands of what `whole` would draw at once, which end at these rows if that is enough; none where memory is enough without, or where bands would not help: so many

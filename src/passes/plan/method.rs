@@ -3,7 +3,7 @@
 use crate::passes::plan::few::are_few;
 use crate::passes::plan::{
     bands::{
-        bands_gain, cut_into_bands,
+        MOST_BANDS, bands_gain, cut_into_bands,
         ends::{largest_of, likely_bands, likely_ends},
         most_bytes,
     },
@@ -147,10 +147,11 @@ fn bands<'a>(
                     ends = likely_ends(arena, &closest, &tight, bands);
                     closest = looked_into(&closest, Closer::Cut(ends));
                     let largest = largest_of(arena, &closest, &tight, ends);
-                    if largest <= most_bytes {
+                    if largest <= most_bytes || bands >= MOST_BANDS as u64 {
                         break;
                     }
                     bands = (bands + 1).max((bands * largest).div_ceil(most_bytes.max(1)));
+                    bands = bands.min(MOST_BANDS as u64);
                 }
                 (closest, tightened(&closest), ends)
             }

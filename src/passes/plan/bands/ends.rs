@@ -10,7 +10,7 @@ use crate::{
 
 /// How many bands of what `whole` would draw at once are likely to take no more than so many bytes each, a sixteenth of them for blocks that two of them have.
 pub(crate) fn likely_bands(whole: &TilePlan, most_bytes: u64) -> u64 {
-    (whole.bytes() * 17 / 16).div_ceil(most_bytes.max(1))
+    (whole.bytes() * 17 / 16).div_ceil(most_bytes.max(1)).min(MOST_BANDS as u64)
 }
 
 /// The rows at which so many bands of what `whole` would draw at once are likely to end, if all take as much.
