@@ -137,7 +137,7 @@ impl Image {
             let problem = format!("an image of {width}x{height} pixels: the device has 1 to {side} a side");
             return Err(Error::option(desc.name, problem));
         }
-        if !is_made(device, info) {
+        if !is_made(device, desc) {
             let problem = format!("an image of {:?} for {:?}: the device has none", desc.format, desc.usage);
             return Err(Error::option(desc.name, problem));
         }
@@ -165,32 +165,27 @@ impl Image {
     }
 }
 
-/// Whether a device makes such images: of colors that are not compressed, or of depths in 32 bits, so that a view is of their one aspect.
-fn is_made(device: &Device, info: &vk::ImageCreateInfo<'_>) -> bool {
-    use vk::ImageUsageFlags as U;
-    let attached = U::COLOR_ATTACHMENT | U::DEPTH_STENCIL_ATTACHMENT | U::INPUT_ATTACHMENT;
-    let usages = attached | U::TRANSFER_SRC | U::TRANSFER_DST | U::SAMPLED | U::STORAGE;
+/// Whether a device makes such images, as large as any: of colors that are not compressed, or of depths in 32 bits, so that a view is of their one aspect.
+fn is_made(device: &Device, desc: ImageDesc<'_>) -> bool {
+    use vk::{FormatFeatureFlags as F, ImageUsageFlags as U};
     let colors = vk::Format::R4G4_UNORM_PACK8..=vk::Format::E5B9G9R9_UFLOAT_PACK32;
-    let is_known = colors.contains(&info.format) || info.format == vk::Format::D32_SFLOAT;
-    let (instance, physical) = (device.instance().raw(), device.physical());
-    is_known && !info.usage.is_empty() && usages.contains(info.usage) && {
-        // SAFETY: the device is alive; the format is one of Vulkan 1.0, and so are the usages.
-        unsafe {
-            let (kind, tiling, usage, flags) = (info.image_type, info.tiling, info.usage, info.flags);
-            instance.get_physical_device_image_format_properties(
-                physical,
-                info.format,
-                kind,
-                tiling,
-                usage,
-                flags,
-            )
-        }
-        .is_ok_and(|most| {
-            let vk::Extent3D { width, height, .. } = most.max_extent;
-            info.extent.width <= width && info.extent.height <= height
-        })
+    if !colors.contains(&desc.format) && desc.format != vk::Format::D32_SFLOAT {
+        return false;
     }
+    let (instance, physical) = (device.instance().raw(), device.physical());
+    // SAFETY: the device is alive; the format is one of Vulkan 1.0.
+    let has = unsafe { instance.get_physical_device_format_properties(physical, desc.format) };
+    let usages = [
+        (U::TRANSFER_SRC, F::TRANSFER_SRC),
+        (U::TRANSFER_DST, F::TRANSFER_DST),
+        (U::SAMPLED, F::SAMPLED_IMAGE),
+        (U::STORAGE, F::STORAGE_IMAGE),
+        (U::COLOR_ATTACHMENT, F::COLOR_ATTACHMENT),
+        (U::DEPTH_STENCIL_ATTACHMENT, F::DEPTH_STENCIL_ATTACHMENT),
+    ];
+    let had = usages.iter().filter(|(_, feature)| has.optimal_tiling_features.contains(*feature));
+    let had = had.fold(U::empty(), |had, (usage, _)| had | *usage);
+    !desc.usage.is_empty() && had.contains(desc.usage)
 }
 
 /// A view of all of an image, and its name.

@@ -4,6 +4,7 @@
 
 mod everything;
 mod own_device;
+mod refused;
 
 use crate::common::{
     builder::{self, Random},
