@@ -85,6 +85,9 @@ pub(crate) fn primitives<'a>(
 /// Numbers of bands that are tried, of which blocks are looked at where they are to end.
 const MOST_TRIES: u64 = 3;
 
+/// Rows for each band, of which some are better than others to end at.
+const LEAST_ROWS: u64 = 8;
+
 /// Bands of all these splats; `None` where they have no room.
 fn bands<'a>(
     arena: &'a Arena,
@@ -141,19 +144,25 @@ fn bands<'a>(
             if polygons || !bands_gain(&tight, most_bytes) {
                 (close, tight, &[][..])
             } else {
-                let (mut closest, mut ends) = (looked_into(&close, Closer::Tall), &[][..]);
                 let mut bands = likely_bands(&tight, most_bytes);
-                for _ in 0..MOST_TRIES {
-                    ends = likely_ends(arena, &closest, &tight, bands);
-                    closest = looked_into(&closest, Closer::Cut(ends));
-                    let largest = largest_of(arena, &closest, &tight, ends);
-                    if largest <= most_bytes || bands >= MOST_BANDS as u64 {
-                        break;
+                if u64::from(rows.end) < LEAST_ROWS * bands {
+                    // Anywhere.
+                    let closest = looked_into(&close, Closer::Cut(arena.list(rows.clone())));
+                    (closest, tightened(&closest), &[][..])
+                } else {
+                    let (mut closest, mut ends) = (looked_into(&close, Closer::Tall), &[][..]);
+                    for _ in 0..MOST_TRIES {
+                        ends = likely_ends(arena, &closest, &tight, bands);
+                        closest = looked_into(&closest, Closer::Cut(ends));
+                        let largest = largest_of(arena, &closest, &tight, ends);
+                        if largest <= most_bytes || bands >= MOST_BANDS as u64 {
+                            break;
+                        }
+                        bands = (bands + 1).max((bands * largest).div_ceil(most_bytes.max(1)));
+                        bands = bands.min(MOST_BANDS as u64);
                     }
-                    bands = (bands + 1).max((bands * largest).div_ceil(most_bytes.max(1)));
-                    bands = bands.min(MOST_BANDS as u64);
+                    (closest, tightened(&closest), ends)
                 }
-                (closest, tightened(&closest), ends)
             }
         }
     };
