@@ -57,6 +57,9 @@ pub fn headless() -> Headless {
 /// meanwhile fails that test.
 pub struct Shared(MutexGuard<'static, Headless>);
 
+/// Pipelines that stay from test to test: of thousands a driver of the processor takes megabytes for each.
+const MOST_PIPELINES: usize = 200;
+
 /// Waits until no other test has the renderer.
 pub fn shared() -> Shared {
     static SHARED: OnceLock<Mutex<Headless>> = OnceLock::new();
@@ -65,6 +68,8 @@ pub fn shared() -> Shared {
     let mut headless = headless.unwrap_or_else(PoisonError::into_inner);
     let own = headless.device().facts().limits;
     headless.renderer.lower_limits(&own);
+    // SAFETY: each frame was submitted before its test ended, but for one that a panic left, which never will be.
+    unsafe { headless.renderer.shaders().keep_newest(MOST_PIPELINES) };
     #[cfg(feature = "test-formulas")]
     headless.renderer.perturb(None);
     Shared(headless)
