@@ -65,16 +65,18 @@ impl<const K: usize> Search<'_, K> {
             return self.leaf(node);
         }
         let middle = node.start + node.len() / 2;
-        self.leaf(middle..middle + 1);
         let axis = usize::from(self.tree.axes[middle]);
         let beyond = self.target[axis] - self.tree.points[middle].position[axis];
         let (below, above) = (node.start..middle, middle + 1..node.end);
         let (near, far) = if beyond < 0.0 { (below, above) } else { (above, below) };
         self.node(near, outside);
-        let mut beside = outside;
-        beside[axis] = beyond;
-        if beside.length_squared() < self.keys[K - 1] {
-            self.node(far, beside);
+        if beyond * beyond < self.keys[K - 1] {
+            self.leaf(middle..middle + 1);
+            let mut beside = outside;
+            beside[axis] = beyond;
+            if beside.length_squared() < self.keys[K - 1] {
+                self.node(far, beside);
+            }
         }
     }
 
