@@ -3,7 +3,8 @@
 use super::OptionValue;
 
 /// Bytes of records and lists that a frame by tiles holds at once ([`super::Rasterizer::Compute`]). Where all of the image would take
-/// more, it is drawn in bands of rows, one after the other in the same memory. The picture is the same but for the rounding of sums.
+/// more by at least a third, it is drawn in bands of rows, one after the other in the same memory: for less, bands gain nothing. The picture is the same but
+/// for the rounding of sums.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum TileMemory {
     /// As much as splats and lists together are one and a half times what the splats take in a scene
