@@ -23,7 +23,7 @@ use crate::passes::{
     },
 };
 use crate::{
-    error::{Error, ErrorKind, Result},
+    error::{Error, Result},
     prepare::SplatSetLayout,
     shaders::{Shader, config::*},
     vk::{
@@ -262,20 +262,6 @@ impl Shaders {
             // SAFETY: as above.
             unsafe { ComputePipeline::new(&self.device, &self.cache, &desc) }
         })
-    }
-
-    /// Counts a pipeline that is made, or refuses to make it.
-    fn makes(&self, missing: MissingPipelines, name: impl Fn() -> String) -> Result<()> {
-        let is_refused = match missing {
-            MissingPipelines::Make => false,
-            MissingPipelines::Refuse => true,
-            MissingPipelines::UpTo(most) => self.made() >= most,
-        };
-        if is_refused {
-            return Err(ErrorKind::NotReady { pipeline: name() }.into());
-        }
-        self.made.fetch_add(1, Ordering::Relaxed);
-        Ok(())
     }
 
     /// The time, in pipelines asked for.

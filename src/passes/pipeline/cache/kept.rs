@@ -1,8 +1,9 @@
-//! Which pipelines there are, and which of them stay.
+//! Which pipelines there are, which may be made, and which of them stay.
 
 use std::sync::atomic::Ordering;
 
-use super::{super::made::first_to_stay, Shaders};
+use super::{super::made::first_to_stay, MissingPipelines, Shaders};
+use crate::error::{ErrorKind, Result};
 
 impl Shaders {
     /// The pipelines made so far, by name: vertex and fragment shader, or compute shader.
@@ -16,6 +17,20 @@ impl Shaders {
     /// How many pipelines were made so far, those counted that are gone.
     pub fn made(&self) -> u64 {
         self.made.load(Ordering::Relaxed)
+    }
+
+    /// Counts a pipeline that is made, or refuses to make it.
+    pub(super) fn makes(&self, missing: MissingPipelines, name: impl Fn() -> String) -> Result<()> {
+        let is_refused = match missing {
+            MissingPipelines::Make => false,
+            MissingPipelines::Refuse => true,
+            MissingPipelines::UpTo(most) => self.made() >= most,
+        };
+        if is_refused {
+            return Err(ErrorKind::NotReady { pipeline: name() }.into());
+        }
+        self.made.fetch_add(1, Ordering::Relaxed);
+        Ok(())
     }
 
     /// Keeps so many pipelines, those that were asked for last, and tells how many go; a frame that needs another makes it again. For hosts whose frames change
