@@ -5,6 +5,7 @@
 //! The tree is the order of its points, and each node's plane goes through its middle one. Distances depend neither on
 //! the number of threads nor on the order of the points.
 
+mod many;
 mod nearest;
 #[cfg(test)]
 mod tests;
@@ -12,6 +13,8 @@ mod tests;
 use std::{iter, num::NonZero, ops::Range, thread};
 
 use glam::DVec3;
+
+pub(super) use many::Many;
 
 /// How many neighbors are found.
 pub(super) const NEIGHBORS: usize = 6;

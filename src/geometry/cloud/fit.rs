@@ -38,6 +38,11 @@ impl Plane {
             yz += o.y * o.z;
             zz += o.z * o.z;
         }
+        Self::of_sums(count, sum, [xx, xy, xz, yy, yz, zz])
+    }
+
+    /// Of so many points with these sums of coordinates and of their products xx, xy, xz, yy, yz and zz.
+    pub(super) fn of_sums(count: f64, sum: DVec3, [xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Self {
         let m = sum / count;
         let [xx, xy, xz] = [xx - m.x * sum.x, xy - m.x * sum.y, xz - m.x * sum.z];
         let [yy, yz, zz] = [yy - m.y * sum.y, yz - m.y * sum.z, zz - m.z * sum.z];

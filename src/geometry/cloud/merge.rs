@@ -1,6 +1,6 @@
 //! Points at the same place become one, and those that are nowhere are left out.
 
-use std::cmp::Ordering;
+use std::{cmp::Ordering, iter};
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -19,11 +19,14 @@ pub(super) struct Merged {
 
 /// Merges points whose coordinates are equal as numbers: color and radius become the mean, normals their sum.
 pub(super) fn merge(points: Points) -> Merged {
+    if all_apart(&points.positions) {
+        return Merged { points, duplicates: 0, not_finite: 0 };
+    }
     let position = |i: &u32| points.positions[*i as usize];
     let count = u32::try_from(points.positions.len()).unwrap_or(u32::MAX);
     let finite = (0..count).filter(|i| position(i).is_finite());
     // Equal places have equal keys, and others hardly ever.
-    let mut sorted: Vec<u64> = finite.map(|i| u64::from(key(position(&i))) << 32 | u64::from(i)).collect();
+    let mut sorted: Vec<u64> = finite.map(|i| key(position(&i)) & UPPER | u64::from(i)).collect();
     let not_finite = points.positions.len() - sorted.len();
     sorted.par_sort_unstable();
     sorted.chunk_by_mut(|a, b| a >> 32 == b >> 32).filter(|one_key| one_key.len() > 1).for_each(|one_key| {
@@ -70,14 +73,46 @@ fn along(a: f64, b: f64) -> Ordering {
     a.partial_cmp(&b).unwrap_or(Ordering::Equal)
 }
 
+/// Whether all places are finite and no two have one key. Keys of which the upper bits are equal, eight or so, are compared with each other: that takes
+/// a tenth of the time of sorting all.
+fn all_apart(places: &[DVec3]) -> bool {
+    if !places.par_iter().all(|place| place.is_finite()) {
+        return false;
+    }
+    let bits = (places.len() / 8).max(1).ilog2() + 1;
+    let bucket = |key: u64| (key >> (u64::BITS - bits)) as usize;
+    let keys: Vec<u64> = places.par_iter().map(|place| key(*place)).collect();
+    let mut ends = vec![0_usize; 1 << bits];
+    keys.iter().for_each(|key| ends[bucket(*key)] += 1);
+    // Where each bucket begins, which becomes where it ends.
+    let mut begin = 0;
+    for end in &mut ends {
+        begin += std::mem::replace(end, begin);
+    }
+    let mut sorted = vec![0; keys.len()];
+    for key in keys {
+        let next = &mut ends[bucket(key)];
+        sorted[*next] = key;
+        *next += 1;
+    }
+    let begins = iter::once(0).chain(ends.iter().copied());
+    begins.zip(&ends).all(|(begin, end)| {
+        let keys = &sorted[begin..*end];
+        keys.len() <= MOST_ALIKE && keys.iter().enumerate().all(|(i, key)| !keys[..i].contains(key))
+    })
+}
+
+/// More keys with the same upper bits are no chance: they are not compared with each other.
+const MOST_ALIKE: usize = 64;
+
+/// The half of a key by which equal places are found.
+const UPPER: u64 = 0xffff_ffff_0000_0000;
+
 /// The same of places that are equal as numbers.
-fn key(place: DVec3) -> u32 {
+fn key(place: DVec3) -> u64 {
     // −0 + 0 is 0. Products carry what differs into the upper half (Knuth, "The Art of Computer Programming" 3, section 6.4).
     let bits = (place + DVec3::ZERO).to_array().map(f64::to_bits);
-    let mixed = bits
-        .into_iter()
-        .fold(0_u64, |key, bits| (key.rotate_left(23) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    (mixed >> 32) as u32
+    bits.into_iter().fold(0_u64, |key, bits| (key.rotate_left(23) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15))
 }
 
 fn compare(a: DVec3, b: DVec3) -> Ordering {
@@ -126,11 +161,15 @@ mod tests {
         let mut random = SplitMix(6);
         let mut positions: Vec<DVec3> =
             (0..400_000).map(|_| DVec3::from_array([0; 3].map(|_| random.unit()))).collect();
-        let mut keys: Vec<u32> = positions.iter().map(|place| key(*place)).collect();
+        let mut keys: Vec<u64> = positions.iter().map(|place| key(*place) & UPPER).collect();
         keys.sort_unstable();
         let equal = keys.windows(2).filter(|pair| pair[0] == pair[1]).count();
         assert!((5..40).contains(&equal), "{equal}");
+        assert!(all_apart(&positions) && all_apart(&[]) && all_apart(&positions[..1]));
+        assert!(!all_apart(&[&positions[..9], &[DVec3::X, positions[3]]].concat()));
+        assert!(!all_apart(&[DVec3::ZERO, DVec3::X, -DVec3::ZERO]) && !all_apart(&[DVec3::INFINITY]));
         positions.extend_from_within(1000..1010);
+        assert!(!all_apart(&positions));
         let expected = positions[..400_000].to_vec();
         let merged = merge(Points { positions, ..Points::default() });
         assert_eq!(merged.duplicates, 10);

@@ -10,10 +10,10 @@ use glam::DVec3;
 
 use super::{
     fit::{FLAT, Plane},
-    patches::{self, every, nearest, or_sheet},
+    patches::{self, every, plane_or_sheet},
     plane::{MOST_NEIGHBORS, NEIGHBORS},
 };
-use crate::geometry::neighbors::Tree;
+use crate::geometry::neighbors::{Many, Tree};
 
 /// Every so manieth point is in a coarser tree, in the order of the finer one, in which neighbors lie near each other.
 const STRIDES: [usize; 6] = [4, 16, 64, 256, 1024, 4096];
@@ -55,10 +55,13 @@ fn thickness<const K: usize>(tree: &Tree, among: &Tree) -> f64 {
     if among.points().len() <= 4 * K {
         return 0.0;
     }
+    let mut near = Many::default();
     let of = |place: usize| {
-        let offsets = nearest::<K>(among, tree.points()[place].position);
-        let whole = Plane::fit(&offsets, |_| true);
-        let plane = if K == NEIGHBORS { whole } else { or_sheet(whole, &offsets, MIXED) };
+        let place = tree.points()[place].position;
+        let plane = match K {
+            NEIGHBORS => Plane::fit(near.nearest(among, place, K), |_| true),
+            _ => plane_or_sheet(among, place, MIXED, &mut near),
+        };
         plane.thickness
     };
     let mut all: Vec<f64> = (0..total).step_by(total.div_ceil(SAMPLES)).map(of).collect();

@@ -10,7 +10,7 @@
 //! normals, so that beside an edge they are rather those of the face on which the point lies. Of the nearest alone, normals would change at
 //! once somewhere beside an edge, where 60 of 2 million places of a noisy cube were in no disk then.
 
-use std::ops::Range;
+use std::{iter, ops::Range};
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -21,7 +21,7 @@ use super::{
     plane::{MOST_NEIGHBORS, NEIGHBORS},
     sheets,
 };
-use crate::geometry::neighbors::{Point, Tree};
+use crate::geometry::neighbors::{Many, Point, Tree};
 
 /// Every so manieth of the points that planes are fitted to is the middle of a patch. With 2 clouds take half as long again, with 8 edges have
 /// normals farther off.
@@ -45,17 +45,11 @@ pub(super) fn every(tree: &Tree, stride: usize) -> Tree {
     Tree::new(tree.points().iter().step_by(stride).copied().collect())
 }
 
-/// The plane through all neighbors, or the sheet among them if it is thicker than `mixed`.
-pub(super) fn or_sheet(whole: Plane, offsets: &[DVec3], mixed: f64) -> Plane {
-    let sheet = (whole.thickness > mixed).then(|| sheets::wide(offsets));
+/// The plane through the 48 points nearest to a place, or the sheet among them if it is thicker than `mixed`.
+pub(super) fn plane_or_sheet(tree: &Tree, place: DVec3, mixed: f64, near: &mut Many) -> Plane {
+    let whole = Plane::fit(near.nearest(tree, place, MOST_NEIGHBORS), |_| true);
+    let sheet = (whole.thickness > mixed).then(|| sheets::wide(near.sorted(tree, place)));
     sheet.flatten().unwrap_or(whole)
-}
-
-/// The offsets from a place of the points of a tree that are nearest to it, nearest first.
-pub(super) fn nearest<const K: usize>(tree: &Tree, place: DVec3) -> Vec<DVec3> {
-    let found: [u32; K] = tree.nearest_places_to(place);
-    let near = found.iter().filter_map(|at| tree.points().get(*at as usize));
-    near.map(|point| point.position - place).collect()
 }
 
 /// A plane of the surface.
@@ -81,45 +75,44 @@ struct Patch {
 /// `mixed` may be of two sheets.
 pub(super) fn normals(tree: &Tree, coarse: &Tree, mixed: f64) -> Vec<DVec3> {
     let middles = every(coarse, EVERY);
-    let mut facets: Vec<Facet> =
-        middles.points().par_iter().map(|middle| Facet::at(middle.position, coarse, mixed)).collect();
-    turn_to_one_side(&mut facets, &middles);
-    let patches: Vec<Patch> = (0..facets.len())
-        .into_par_iter()
-        .map(|place| Patch::new(facets[place], near(&middles, middles.points()[place].position, &facets)))
-        .collect();
+    let facet = |near: &mut Many, middle: &Point| Facet::at(middle.position, coarse, mixed, near);
+    let mut facets: Vec<Facet> = middles.points().par_iter().map_init(Many::default, facet).collect();
+    let neighbors: Vec<[u32; NEIGHBORS]> =
+        (0..facets.len()).into_par_iter().map(|place| middles.nearest_places(place)).collect();
+    turn_to_one_side(&mut facets, &middles, &neighbors);
+    let with_nearest =
+        |(facet, near): (&Facet, &[u32; NEIGHBORS])| Patch::new(facet, of(&near[..NEIGHBORS - 1], &facets));
+    let patches: Vec<Patch> = facets.par_iter().zip(&neighbors).map(with_nearest).collect();
     let of_group = |group: Range<usize>| {
         let points = &tree.points()[group];
         let middle = points.iter().map(|point| point.position).sum::<DVec3>() / points.len() as f64;
-        let of_group: Vec<&Patch> = near(&middles, middle, &patches).collect();
-        let alone =
-            |place: DVec3| normal(place, &near(&middles, place, &patches).collect::<Vec<_>>(), f64::INFINITY);
+        let near =
+            |place: DVec3| of(&middles.nearest_places_to::<NEIGHBORS>(place), &patches).collect::<Vec<_>>();
+        let of_group = near(middle);
+        let alone = |place: DVec3| normal(place, &near(place), f64::INFINITY);
         let one = |point: &Point| normal(point.position, &of_group, 1.0).or_else(|| alone(point.position));
         points.iter().map(|point| one(point).unwrap_or(DVec3::Z)).collect::<Vec<_>>()
     };
     tree.groups(GROUP).into_par_iter().flat_map_iter(of_group).collect()
 }
 
-/// Turns the normals of facets about the points of a tree.
-fn turn_to_one_side(facets: &mut [Facet], middles: &Tree) {
+/// Turns the normals of facets about the points of a tree, whose neighbors are given.
+fn turn_to_one_side(facets: &mut [Facet], middles: &Tree, neighbors: &[[u32; NEIGHBORS]]) {
     // Means of points of two sheets would lie between these.
     let places = middles.positions();
     let mut normals: Vec<DVec3> = facets.iter().map(|facet| facet.normal).collect();
-    let neighbors: Vec<[u32; NEIGHBORS]> =
-        (0..places.len()).into_par_iter().map(|place| middles.nearest_places(place)).collect();
     let area = |place: usize| -> f64 {
         let six = neighbors[place].iter().take(6).filter_map(|j| places.get(*j as usize));
         six.map(|other| other.distance_squared(places[place])).sum::<f64>() / 6.0
     };
     let areas: Vec<f64> = (0..places.len()).map(area).collect();
-    orient(&places, &neighbors, &areas, &mut normals);
+    orient(&places, neighbors, &areas, &mut normals);
     facets.iter_mut().zip(normals).for_each(|(facet, normal)| facet.normal = normal);
 }
 
-/// What belongs to the points of a tree that are nearest to a place.
-fn near<'a, T>(tree: &Tree, place: DVec3, all: &'a [T]) -> impl Iterator<Item = &'a T> + Clone {
-    let found: [u32; NEIGHBORS] = tree.nearest_places_to(place);
-    found.into_iter().filter_map(|at| all.get(at as usize))
+/// What belongs to places that were found.
+fn of<'a, T>(found: &[u32], all: &'a [T]) -> impl Iterator<Item = &'a T> + Clone {
+    found.iter().filter_map(|at| all.get(*at as usize))
 }
 
 /// What the patches near a place tell; `None` where none is so near, in parts of its reach, that it knows the place.
@@ -144,9 +137,8 @@ fn normal(place: DVec3, patches: &[&Patch], farthest: f64) -> Option<DVec3> {
 
 impl Facet {
     /// Of the points about a place.
-    fn at(place: DVec3, points: &Tree, mixed: f64) -> Self {
-        let offsets = nearest::<MOST_NEIGHBORS>(points, place);
-        let plane = or_sheet(Plane::fit(&offsets, |_| true), &offsets, mixed);
+    fn at(place: DVec3, points: &Tree, mixed: f64, near: &mut Many) -> Self {
+        let plane = plane_or_sheet(points, place, mixed, near);
         Self { mean: place + plane.mean, normal: plane.normal }
     }
 
@@ -158,9 +150,9 @@ impl Facet {
 }
 
 impl Patch {
-    /// Of a facet with those nearest to it, itself among them.
-    fn new<'a>(facet: Facet, near: impl Iterator<Item = &'a Facet> + Clone) -> Self {
-        let of_face = near.filter_map(|other| {
+    /// Of a facet with those nearest to it.
+    fn new<'a>(facet: &'a Facet, near: impl Iterator<Item = &'a Facet> + Clone) -> Self {
+        let of_face = iter::once(facet).chain(near).filter_map(|other| {
             let dot = other.normal.dot(facet.normal);
             (dot.abs() > SAME_FACE).then_some((other.mean, dot.signum() * other.normal))
         });
@@ -177,7 +169,7 @@ impl Patch {
         }
         let ridge = RIDGE * (places.x_axis.x + places.y_axis.y + places.z_axis.z);
         let turn = turns * (places + DMat3::from_diagonal(DVec3::splat(ridge))).inverse() * reach.recip();
-        Self { facet, mean, normal, turn, reach }
+        Self { facet: *facet, mean, normal, turn, reach }
     }
 
     /// That of the facet where there is no other.

@@ -17,11 +17,11 @@ use super::{
 const LIMITS: [f64; 3] = [0.15, 0.3, 0.6];
 
 /// The share of all neighbors that lie on a sheet beside which there is another. A plate's sides have half each.
-const ON_SHEET: [f64; 2] = [0.4, 0.7];
+const ON_SHEET: [f32; 2] = [0.4, 0.7];
 
 /// How many may be between one and two limits away for each on the sheet. Of one surface with noise (normally distributed) it is a
 /// third at the limit within which 0.7 of its points are, and more at lower ones.
-const BETWEEN: f64 = 0.1;
+const BETWEEN: f32 = 0.1;
 
 /// Every so manieth neighbor makes planes of [`wide`], and the nearest so many those of [`near`].
 const EVERY: usize = 4;
@@ -34,22 +34,20 @@ const FEWEST: usize = 5;
 pub(super) fn wide(offsets: &[DVec3]) -> Option<Plane> {
     let scale = offsets.get(5)?.length();
     let limits = LIMITS.map(|limit| limit * scale);
+    let fours = Fours::new(offsets, scale);
     let some: Vec<DVec3> = offsets.iter().skip(EVERY - 1).step_by(EVERY).copied().collect();
-    limits.into_iter().zip(planes(&some, offsets, limits)).find_map(|(limit, normal)| {
-        let mut sheet = Sheet { normal: normal?, middle: 0.0, limit };
-        let mut plane = sheet.fit(offsets);
+    limits.into_iter().zip(fours.planes(&some, limits)).find_map(|(limit, normal)| {
+        let mut sheet = Sheet::new(normal?, limit / scale);
         for _ in 0..2 {
-            sheet = sheet.moved(plane.normal, offsets);
-            plane = sheet.fit(offsets);
+            sheet = fours.moved(&sheet, fours.fit(&sheet).normal);
         }
-        let sheet = sheet.moved(plane.normal, offsets);
-        let share = |distance: f64| {
-            let within = offsets.iter().filter(|o| sheet.distance(**o) <= distance).count();
-            within as f64 / offsets.len() as f64
-        };
-        let (on, near) = (share(limit), share(2.0 * limit));
-        let stands_out = (ON_SHEET[0]..=ON_SHEET[1]).contains(&on) && near - on <= BETWEEN * on;
-        let has_point = sheet.distance(DVec3::ZERO) <= limit;
+        let plane = fours.fit(&sheet);
+        let sheet = fours.moved(&sheet, plane.normal);
+        // Whole numbers, of which none is rounded.
+        let [on, near] = [sheet.limit, 2.0 * sheet.limit].map(|limit| fours.within(&sheet, limit));
+        let shares = ON_SHEET.map(|share| share * offsets.len() as f32);
+        let stands_out = (shares[0]..=shares[1]).contains(&on) && near - on <= BETWEEN * on;
+        let has_point = sheet.middle.abs() <= sheet.limit;
         (stands_out && has_point && plane.thickness <= FLAT).then_some(plane)
     })
 }
@@ -57,38 +55,38 @@ pub(super) fn wide(offsets: &[DVec3]) -> Option<Plane> {
 /// The sheet of a point that has the most of a few neighbors.
 pub(super) fn near(offsets: &[DVec3]) -> Option<Plane> {
     let some = &offsets[..offsets.len().min(NEAREST)];
-    let limit = LIMITS[0] * some.last()?.length();
-    let [normal] = planes(some, offsets, [limit]);
-    let sheet = Sheet { normal: normal?, middle: 0.0, limit };
-    let count = offsets.iter().filter(|o| sheet.distance(**o) <= limit).count() + 1;
-    let plane = (count >= FEWEST).then(|| sheet.fit(offsets))?;
+    let scale = some.last()?.length();
+    let fours = Fours::new(offsets, scale);
+    let [normal] = fours.planes(some, [LIMITS[0] * scale]);
+    let sheet = Sheet::new(normal?, LIMITS[0]);
+    let count = fours.within(&sheet, sheet.limit) + 1.0;
+    let plane = (count >= FEWEST as f32).then(|| fours.fit(&sheet))?;
     (plane.thickness <= FLAT).then_some(plane)
 }
 
-/// For each limit the normal of the best plane through 0 and two of `some`. Sums are of 32 bits, in limits, four neighbors at once: planes of which
-/// these tell the same are as good.
-fn planes<const N: usize>(some: &[DVec3], offsets: &[DVec3], limits: [f64; N]) -> [Option<DVec3>; N] {
-    let fours = Fours::new(offsets, limits[N - 1]);
-    let squares = limits.map(|limit| Vec4::splat((limit / limits[N - 1]).powi(2) as f32));
-    let mut best = [(f32::INFINITY, None); N];
-    for (i, a) in some.iter().enumerate() {
-        for b in &some[..i] {
-            let Some(normal) = a.cross(*b).try_normalize() else { continue };
-            let sums = fours.sums(normal.as_vec3(), squares);
-            for (best, sum) in best.iter_mut().zip(sums) {
-                if sum < best.0 {
-                    *best = (sum, Some(normal));
-                }
-            }
-        }
-    }
-    best.map(|(_, normal)| normal)
+/// All within `limit` of a plane.
+#[derive(Clone, Copy)]
+struct Sheet {
+    normal: Vec3,
+    /// The plane's distance from the point, along the normal.
+    middle: f32,
+    limit: f32,
 }
 
-/// The x, y and z of neighbors by fours; 0 where there are fewer.
+impl Sheet {
+    /// Through the point.
+    fn new(normal: DVec3, limit: f64) -> Self {
+        Self { normal: normal.as_vec3(), middle: 0.0, limit: limit as f32 }
+    }
+}
+
+/// The x, y and z of neighbors by fours, in 32 bits and a unit of their distance: what rounding leaves, 1e-6, is nothing beside the thickness of a sheet.
 struct Fours {
     all: [[Vec4; 3]; MOST_NEIGHBORS / 4],
     count: usize,
+    /// Zeros behind the last.
+    zeros: f32,
+    unit: f64,
 }
 
 impl Fours {
@@ -99,43 +97,88 @@ impl Fours {
                 (0..3).for_each(|axis| four[axis][i] = (offset[axis] / unit) as f32);
             }
         }
-        Self { all, count: offsets.len().div_ceil(4).min(MOST_NEIGHBORS / 4) }
+        let count = offsets.len().div_ceil(4).min(MOST_NEIGHBORS / 4);
+        Self { all, count, zeros: (4 * count).saturating_sub(offsets.len()) as f32, unit }
+    }
+
+    /// For each limit the normal of the best plane through 0 and two of `some`.
+    fn planes<const N: usize>(&self, some: &[DVec3], limits: [f64; N]) -> [Option<DVec3>; N] {
+        let squares = limits.map(|limit| Vec4::splat((limit / self.unit).powi(2) as f32));
+        let mut best = [(f32::INFINITY, None); N];
+        for (i, a) in some.iter().enumerate() {
+            for b in &some[..i] {
+                let Some(normal) = a.cross(*b).try_normalize() else { continue };
+                let sums = self.sums(normal.as_vec3(), squares);
+                for (best, sum) in best.iter_mut().zip(sums) {
+                    if sum < best.0 {
+                        *best = (sum, Some(normal));
+                    }
+                }
+            }
+        }
+        best.map(|(_, normal)| normal)
     }
 
     /// The sums of squared distances from a plane through 0, each cut off.
     fn sums<const N: usize>(&self, normal: Vec3, limits: [Vec4; N]) -> [f32; N] {
         let mut sums = [Vec4::ZERO; N];
-        for [x, y, z] in &self.all[..self.count] {
-            let distance = normal.x * x + normal.y * y + normal.z * z;
+        for distance in self.along(normal) {
             let squared = distance * distance;
             sums.iter_mut().zip(limits).for_each(|(sum, limit)| *sum += squared.min(limit));
         }
         sums.map(Vec4::element_sum)
     }
-}
 
-/// All within `limit` of a plane.
-#[derive(Clone, Copy)]
-struct Sheet {
-    normal: DVec3,
-    /// The plane's distance from the point, along the normal.
-    middle: f64,
-    limit: f64,
-}
-
-impl Sheet {
-    fn distance(&self, offset: DVec3) -> f64 {
-        (self.normal.dot(offset) - self.middle).abs()
+    fn along(&self, normal: Vec3) -> impl Iterator<Item = Vec4> {
+        self.all[..self.count].iter().map(move |[x, y, z]| normal.x * x + normal.y * y + normal.z * z)
     }
 
-    fn fit(&self, offsets: &[DVec3]) -> Plane {
-        Plane::fit(offsets, |offset| self.distance(offset) <= self.limit)
+    /// Which lie within a limit of a sheet's middle.
+    fn part(&self, sheet: &Sheet, limit: f32) -> impl Iterator<Item = impl Fn(Vec4) -> Vec4> {
+        let (middle, limit) = (Vec4::splat(sheet.middle), Vec4::splat(limit));
+        let is_within = move |along: Vec4| (along - middle).abs().cmple(limit);
+        self.along(sheet.normal).map(is_within).map(|mask| move |of: Vec4| Vec4::select(mask, of, Vec4::ZERO))
     }
 
-    /// With another normal, through the mean of the points on it.
-    fn moved(&self, normal: DVec3, offsets: &[DVec3]) -> Self {
-        let on = offsets.iter().filter(|o| self.distance(**o) <= self.limit);
-        let (sum, count) = on.fold((0.0, 1.0), |(sum, count), o| (sum + normal.dot(*o), count + 1.0));
-        Self { normal, middle: sum / count, limit: self.limit }
+    /// Of how many zeros are counted that are no neighbors.
+    fn surplus(&self, sheet: &Sheet, limit: f32) -> f32 {
+        if sheet.middle.abs() <= limit { self.zeros } else { 0.0 }
+    }
+
+    /// How many lie within a limit of a sheet's middle.
+    fn within(&self, sheet: &Sheet, limit: f32) -> f32 {
+        self.part(sheet, limit).map(|part| part(Vec4::ONE)).sum::<Vec4>().element_sum()
+            - self.surplus(sheet, limit)
+    }
+
+    /// The plane through the point and those on a sheet.
+    fn fit(&self, sheet: &Sheet) -> Plane {
+        let [mut x, mut y, mut z, mut xx, mut xy, mut xz, mut yy, mut yz, mut zz, mut count] =
+            [Vec4::ZERO; 10];
+        for (part, four) in self.part(sheet, sheet.limit).zip(&self.all) {
+            let [on_x, on_y, on_z] = four.map(&part);
+            (x, y, z, count) = (x + on_x, y + on_y, z + on_z, count + part(Vec4::ONE));
+            (xx, xy, xz) = (xx + on_x * on_x, xy + on_x * on_y, xz + on_x * on_z);
+            (yy, yz, zz) = (yy + on_y * on_y, yz + on_y * on_z, zz + on_z * on_z);
+        }
+        let sum = |fours: Vec4| f64::from(fours.element_sum());
+        let count = sum(count) - f64::from(self.surplus(sheet, sheet.limit));
+        let plane = Plane::of_sums(
+            1.0 + count,
+            DVec3::new(sum(x), sum(y), sum(z)),
+            [xx, xy, xz, yy, yz, zz].map(sum),
+        );
+        Plane { mean: self.unit * plane.mean, ..plane }
+    }
+
+    /// A sheet with another normal, through the mean of the points on it.
+    fn moved(&self, sheet: &Sheet, normal: DVec3) -> Sheet {
+        let normal = normal.as_vec3();
+        let on = self.part(sheet, sheet.limit).zip(self.along(normal));
+        let (sum, count) = on.fold((Vec4::ZERO, Vec4::ZERO), |(sum, count), (part, along)| {
+            (sum + part(along), count + part(Vec4::ONE))
+        });
+        let count = 1.0 + count.element_sum() - self.surplus(sheet, sheet.limit);
+        Sheet { normal, middle: sum.element_sum() / count, ..*sheet }
     }
 }

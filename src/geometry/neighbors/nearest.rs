@@ -12,10 +12,10 @@ use glam::DVec3;
 use super::Tree;
 
 /// Nodes of so many points are not looked into: it takes longer to guess which of them are near than to look at all.
-const LEAF: usize = 16;
+pub(super) const LEAF: usize = 16;
 
 /// The bits of a key that are a place.
-const PLACE: u64 = 0xffff_ffff;
+pub(super) const PLACE: u64 = 0xffff_ffff;
 
 /// What stands behind those that were found, where there are fewer: no key is larger, and its place is `u32::MAX`.
 const NONE: f64 = f64::MAX;

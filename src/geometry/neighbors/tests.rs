@@ -78,6 +78,7 @@ fn many_points_on_several_threads_and_all_at_one_place() {
 fn the_nearest_places_are_those_of_brute_force_to_a_millionth() {
     let mut random = SplitMix(7);
     let mut place = move || DVec3::new(random.unit(), random.unit(), random.unit());
+    let mut many = Many::default();
     for count in [1, 12, LEAF, 50, 2000] {
         let space: Vec<_> = (0..count).map(|_| place()).collect();
         let grid = space.iter().map(|p| (*p * 4.0).floor()).collect();
@@ -106,8 +107,26 @@ fn the_nearest_places_are_those_of_brute_force_to_a_millionth() {
                 }
                 assert!(!others.contains(&(target as u32)));
             }
+            // Also where the last place was far away or nothing like this one.
+            for target in (0..count).chain((0..count).rev().step_by(7)) {
+                let place = tree.points()[target].position * if target % 3 == 0 { 1.001 } else { 1.0 };
+                let mut all: Vec<f64> =
+                    tree.points().iter().map(|p| p.position.distance_squared(place)).collect();
+                all.sort_by(f64::total_cmp);
+                all.truncate(12);
+                many.nearest(&tree, place, 12);
+                let found = many.sorted(&tree, place);
+                assert_eq!(found.len(), all.len());
+                for (offset, truth) in found.iter().zip(&all) {
+                    assert!(
+                        (offset.length_squared() - truth).abs() <= 1e-6 * truth,
+                        "{offset} {truth}, {count}"
+                    );
+                }
+            }
         }
     }
     let none = Tree::new(vec![Point { position: DVec3::NAN, number: 0 }; 3]);
     assert_eq!(none.nearest_places::<2>(0), [u32::MAX; 2]);
+    assert!(many.nearest(&none, DVec3::ZERO, 2).is_empty());
 }
