@@ -110,11 +110,20 @@ impl Cells {
         Vec2::new(x[number % 4], y[number % 4])
     }
 
-    /// Where the way from a place inside first meets a line, and that line's number.
+    /// Where the way from a place inside first meets a line, and that line's number. No line of the octagon is met inside its circle.
     fn next(&mut self, from: Vec2, way: Vec2) -> (Vec2, usize) {
+        let of_neighbors = self.next_from(OCTAGON.len(), from, way);
+        match of_neighbors.0.length_squared() <= 1.0 {
+            true => of_neighbors,
+            false => self.next_from(0, from, way),
+        }
+    }
+
+    /// Of the lines from a four on.
+    fn next_from(&mut self, first: usize, from: Vec2, way: Vec2) -> (Vec2, usize) {
         let mut nearest = Vec4::MAX;
         self.lengths.clear();
-        self.lengths.extend(self.lines.iter().map(|[x, y, limit]| {
+        self.lengths.extend(self.lines[first..].iter().map(|[x, y, limit]| {
             let toward = way.x * x + way.y * y;
             let left = limit - (from.x * x + from.y * y);
             let length = Vec4::select(toward.cmpgt(Vec4::ZERO), left.max(Vec4::ZERO) / toward, Vec4::MAX);
@@ -125,7 +134,7 @@ impl Cells {
         let is_nearest =
             |(i, four): (usize, &Vec4)| u64::from(four.cmple(Vec4::splat(nearest)).bitmask()) << (4 * i);
         let lines = self.lengths.iter().enumerate().map(is_nearest).fold(0, |all, four| all | four);
-        (from + way * nearest, lines.trailing_zeros() as usize)
+        (from + way * nearest, 4 * first + lines.trailing_zeros() as usize)
     }
 }
 

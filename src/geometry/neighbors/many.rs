@@ -89,9 +89,9 @@ impl Tree {
     ) {
         if node.len() <= LEAF {
             let (mut within, mut count) = ([0; LEAF], 0);
-            for place in node {
-                let squared = target.distance_squared(self.points[place].position);
-                within[count] = squared.to_bits() & !PLACE | place as u64;
+            for (place, point) in node.clone().zip(&self.points[node]) {
+                let squared = target.distance_squared(point.position);
+                within[count % LEAF] = squared.to_bits() & !PLACE | place as u64;
                 count += usize::from(squared <= bound);
             }
             return keys.extend_from_slice(&within[..count]);

@@ -83,11 +83,12 @@ impl<const K: usize> Search<'_, K> {
     /// First those nearer than the last, then each to its place: what a processor guesses is how many there are.
     fn leaf(&mut self, node: Range<usize>) {
         let (mut nearer, mut count) = ([0.0; LEAF], 0);
-        for place in node {
-            let squared = self.target.distance_squared(self.tree.points[place].position);
+        let last = self.keys[K - 1];
+        for (place, point) in node.clone().zip(&self.tree.points[node]) {
+            let squared = self.target.distance_squared(point.position);
             let key = f64::from_bits(squared.to_bits() & !PLACE | place as u64);
-            nearer[count] = key;
-            count += usize::from((key < self.keys[K - 1]) & (place != self.but));
+            nearer[count % LEAF] = key;
+            count += usize::from((key < last) & (place != self.but));
         }
         nearer[..count].iter().for_each(|key| self.insert(*key));
     }
