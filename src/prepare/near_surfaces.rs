@@ -11,7 +11,7 @@
 //! The splats lie in a grid whose cells are as large as the neighborhood of the median radius, each with a cone around its normals. Cells
 //! near which no two normals can be 120° apart, most of any scan, are done with a look at the cones.
 
-use std::ops::Range;
+use std::{iter, ops::Range};
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -114,13 +114,35 @@ impl Grid {
         self.places[cell.places.start].cell
     }
 
-    /// The cells of a box.
+    /// The cells of a box, in order. What is between them is leapt over, so that a box of many rows costs no more than the cells that are there.
     fn within(&self, [lo, hi]: [[i32; 3]; 2]) -> impl Iterator<Item = &Cell> {
-        let rows = (lo[0]..=hi[0]).flat_map(move |x| (lo[1]..=hi[1]).map(move |y| [x, y]));
-        rows.flat_map(move |[x, y]| {
-            let first = self.cells.partition_point(|cell| self.at(cell) < [x, y, lo[2]]);
-            self.cells[first..].iter().take_while(move |cell| self.at(cell) <= [x, y, hi[2]])
+        let mut next = self.from(0, lo);
+        iter::from_fn(move || {
+            loop {
+                let cell = self.cells.get(next)?;
+                let [x, y, z] = self.at(cell);
+                let leap = if x > hi[0] {
+                    return None;
+                } else if y < lo[1] {
+                    [x, lo[1], lo[2]]
+                } else if y > hi[1] {
+                    [x + 1, lo[1], lo[2]]
+                } else if z < lo[2] {
+                    [x, y, lo[2]]
+                } else if z > hi[2] {
+                    [x, y + 1, lo[2]]
+                } else {
+                    next += 1;
+                    return Some(cell);
+                };
+                next = self.from(next, leap);
+            }
         })
+    }
+
+    /// The first cell, from one on, that is not before a place.
+    fn from(&self, first: usize, place: [i32; 3]) -> usize {
+        first + self.cells[first..].partition_point(|cell| self.at(cell) < place)
     }
 }
 
@@ -178,15 +200,15 @@ impl Work<'_> {
         let reach = 2.0 * self.radii * own.iter().map(radius).fold(0.0, f64::max);
         let cells = (reach / self.grid.cell).ceil().clamp(1.0, MOST_CELLS) as i32;
         let corners = [-cells, cells].map(|by| own[0].cell.map(|x| x + by));
-        let near = || self.grid.within(corners);
+        let near: Vec<&Cell> = self.grid.within(corners).collect();
         let other_way = (-SAME_WAY).acos();
-        let may_face_the_other_way = |other: &Cell| {
+        let may_face_the_other_way = |other: &&Cell| {
             let between = other.axis.dot(cell.axis).clamp(-1.0, 1.0).acos();
             // With room for rounding.
             between + cell.angle_rad + other.angle_rad > other_way - 1e-6
         };
-        let count: usize = near().map(|other| other.places.len()).sum();
-        if count > MOST_CANDIDATES || !near().any(may_face_the_other_way) {
+        let count: usize = near.iter().map(|other| other.places.len()).sum();
+        if count > MOST_CANDIDATES || !near.iter().any(may_face_the_other_way) {
             return Vec::new();
         }
         let neighbor = |place: &Place| {
@@ -197,7 +219,7 @@ impl Work<'_> {
                 splat: place.splat,
             }
         };
-        near().flat_map(|other| self.grid.places[other.places.clone()].iter().map(neighbor)).collect()
+        near.iter().flat_map(|other| self.grid.places[other.places.clone()].iter().map(neighbor)).collect()
     }
 
     fn share(&self, i: usize, near: &[Neighbor]) -> f64 {

@@ -149,24 +149,7 @@ impl<'a> Stage<'a> {
 
     /// The exact picture; cases that differ only in what it does not depend on share it.
     fn oracle(&mut self, scene: usize, hard: &Hard) -> Result<Rc<Picture>> {
-        let mut key = Settings {
-            // Edges cover in part by tiles alone.
-            rasterizer: match hard.settings.covers_in_part() {
-                true => hard.settings.rasterizer,
-                false => hard.settings.rasterizer.family(),
-            },
-            // The sums are f64; what a splat weighs at least is as it is on the device.
-            accumulate: match hard.settings.floors() == Floors::HALF {
-                true => Accumulate::F16,
-                false => Accumulate::F32,
-            },
-            kernel_eval: KernelEval::default(),
-            tile_invocations: TileInvocations::default(),
-            ..hard.settings.clone()
-        };
-        if !key.filter.adjusts() {
-            key.filter_weight = FilterWeight::default();
-        }
+        let key = of_oracle(&hard.settings);
         if self.oracles.0 != scene {
             self.oracles = (scene, Vec::new());
         }
@@ -178,6 +161,29 @@ impl<'a> Stage<'a> {
         oracles.push((key, Rc::clone(&oracle)));
         Ok(oracle)
     }
+}
+
+/// The settings with all that the oracle's picture does not depend on as it is by default.
+pub fn of_oracle(settings: &Settings) -> Settings {
+    let mut key = Settings {
+        // Edges cover in part by tiles alone.
+        rasterizer: match settings.covers_in_part() {
+            true => settings.rasterizer,
+            false => settings.rasterizer.family(),
+        },
+        // The sums are f64; what a splat weighs at least is as it is on the device.
+        accumulate: match settings.floors() == Floors::HALF {
+            true => Accumulate::F16,
+            false => Accumulate::F32,
+        },
+        kernel_eval: KernelEval::default(),
+        tile_invocations: TileInvocations::default(),
+        ..settings.clone()
+    };
+    if !key.filter.adjusts() {
+        key.filter_weight = FilterWeight::default();
+    }
+    key
 }
 
 /// Pixels that are not background: covered by opaque splats, or of another color.

@@ -28,6 +28,7 @@ mod run;
 pub mod tolerance;
 
 pub use case::{Case, SIZE_PX, Suite};
+pub use check::of_oracle;
 pub use known::{BUILT_IN, Entry, Expectation, Known, KnownList};
 pub use pattern::Pattern;
 pub use report::{CaseResult, Counts, SelftestReport, Status, ValidationReport};

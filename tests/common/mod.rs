@@ -6,15 +6,18 @@
 pub mod cases;
 pub mod faults;
 pub mod host;
+mod oracles;
 pub mod watched;
 
 use std::{
     ffi::OsStr,
     ops::{Deref, DerefMut},
     process::Command,
-    sync::{Mutex, MutexGuard, Once, OnceLock, PoisonError},
+    rc::Rc,
+    sync::{Condvar, Mutex, Once, PoisonError},
 };
 
+pub use oracles::oracle_of;
 pub use surfel::{
     hard_scenes::{self as scenes, builder},
     selftest::agreement as compare,
@@ -23,7 +26,7 @@ pub use surfel::{
 use compare::Errors;
 use scenes::Hard;
 use surfel::{
-    reference::{self, Picture},
+    reference::Picture,
     renderer::{Frame, Headless, HeadlessOptions, Wanted},
     scene::Settings,
     vk::{Limits, Validation, arm_validation_across_submits},
@@ -53,45 +56,65 @@ pub fn headless() -> Headless {
     headless
 }
 
-/// The one renderer of a program, whose pipelines are made once, for one test at a time. What the validation layer says
-/// meanwhile fails that test.
-pub struct Shared(MutexGuard<'static, Headless>);
+/// A renderer that tests share, whose pipelines are made once, for one test at a time. What the validation layer says meanwhile fails
+/// that test.
+pub struct Shared(Option<Headless>);
 
-/// Pipelines that stay from test to test: of thousands a driver of the processor takes megabytes for each.
-const MOST_PIPELINES: usize = 200;
+/// Renderers of a program: of what a test does, only drawing takes more than one core.
+const MOST_RENDERERS: usize = 2;
 
-/// Waits until no other test has the renderer.
+/// Pipelines of a renderer that stay from test to test: of thousands a driver of the processor takes megabytes for each.
+const MOST_PIPELINES: usize = 100;
+
+/// Those that no test has, and how many there are in all.
+struct Renderers {
+    free: Vec<Headless>,
+    made: usize,
+}
+
+static RENDERERS: Mutex<Renderers> = Mutex::new(Renderers { free: Vec::new(), made: 0 });
+static GIVEN_BACK: Condvar = Condvar::new();
+
+/// Waits until there is a renderer that no other test has.
 pub fn shared() -> Shared {
-    static SHARED: OnceLock<Mutex<Headless>> = OnceLock::new();
+    let all = RENDERERS.lock().unwrap_or_else(PoisonError::into_inner);
+    let none = |all: &mut Renderers| all.free.is_empty() && all.made == MOST_RENDERERS;
+    let mut all = GIVEN_BACK.wait_while(all, none).unwrap_or_else(PoisonError::into_inner);
+    let mut headless = all.free.pop().unwrap_or_else(|| {
+        let new = headless();
+        all.made += 1;
+        new
+    });
+    drop(all);
     // A test that failed leaves the renderer between two frames: it can go on, with the limits of the device.
-    let headless = SHARED.get_or_init(|| Mutex::new(headless())).lock();
-    let mut headless = headless.unwrap_or_else(PoisonError::into_inner);
     let own = headless.device().facts().limits;
     headless.renderer.lower_limits(&own);
     // SAFETY: each frame was submitted before its test ended, but for one that a panic left, which never will be.
     unsafe { headless.renderer.shaders().keep_newest(MOST_PIPELINES) };
     #[cfg(feature = "test-formulas")]
     headless.renderer.perturb(None);
-    Shared(headless)
+    Shared(Some(headless))
 }
 
 impl Deref for Shared {
     type Target = Headless;
 
     fn deref(&self) -> &Headless {
-        &self.0
+        self.0.as_ref().expect("it is there until it is dropped")
     }
 }
 
 impl DerefMut for Shared {
     fn deref_mut(&mut self) -> &mut Headless {
-        &mut self.0
+        self.0.as_mut().expect("it is there until it is dropped")
     }
 }
 
 impl Drop for Shared {
     fn drop(&mut self) {
         let said = self.device().instance().messages().take();
+        RENDERERS.lock().unwrap_or_else(PoisonError::into_inner).free.extend(self.0.take());
+        GIVEN_BACK.notify_one();
         if !std::thread::panicking() {
             assert!(said.is_empty(), "{} validation messages, the first: {:#?}", said.len(), said[0]);
         }
@@ -124,13 +147,8 @@ pub fn passes(frame: &Frame) -> Vec<&str> {
     frame.plan.passes.iter().map(|pass| pass.name.as_ref()).collect()
 }
 
-/// The exact picture.
-pub fn oracle_of(hard: &Hard) -> Picture {
-    reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap()
-}
-
 /// Renders on both sides, prints the row of errors.
-pub fn against_oracle(headless: &mut Headless, hard: &Hard) -> (Frame, Picture, Errors) {
+pub fn against_oracle(headless: &mut Headless, hard: &Hard) -> (Frame, Rc<Picture>, Errors) {
     let (frame, oracle) = (render(headless, hard), oracle_of(hard));
     let errors = compare::compare(&frame, &oracle);
     println!("{}", errors.row(hard.name));
@@ -138,7 +156,7 @@ pub fn against_oracle(headless: &mut Headless, hard: &Hard) -> (Frame, Picture, 
 }
 
 /// Fails where a frame differs from the oracle by more than the tolerances of 32 bits.
-pub fn assert_agrees(headless: &mut Headless, hard: &Hard, at_least_px: usize) -> (Frame, Picture) {
+pub fn assert_agrees(headless: &mut Headless, hard: &Hard, at_least_px: usize) -> (Frame, Rc<Picture>) {
     let (frame, oracle, errors) = against_oracle(headless, hard);
     let beyond = errors.beyond(&compare::F32.of_at_least(at_least_px));
     assert!(beyond.is_empty(), "{}: {beyond:#?}", hard.name);

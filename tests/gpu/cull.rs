@@ -37,18 +37,17 @@ fn points_of_a_list_are_the_same_bits_on_every_hard_scene_and_with_every_filter(
     let filters = filters.filter(|hard| hard.settings.check_scene(&hard.scene).is_ok());
     let mut listed = 0;
     for scene in scenes::all().into_iter().chain(filters).chain(transparent::all()) {
-        for hard in views(&scene, Rasterizer::Perspective) {
-            let what = format!("{}, {}", hard.name, hard.settings.filter.name());
-            let all = draw(&mut headless, &hard, Cull::Setup, ALL);
+        let prepared = headless.prepare(&scene.scene, &|_, _| {}).unwrap();
+        for Hard { name, camera, settings, .. } in views(&scene, Rasterizer::Perspective) {
+            let what = format!("{name}, {}", settings.filter.name());
+            let [all, kept, seen] = [Cull::Setup, Cull::List, Cull::Hidden].map(|cull| {
+                let settings = Settings { cull, ..settings.clone() };
+                headless.render(&prepared, &camera, &settings, ALL).unwrap()
+            });
             assert!(!passes(&all).contains(&"list visible splats"), "{what}");
-            let kept = draw(&mut headless, &hard, Cull::List, ALL);
             listed += usize::from(passes(&kept).contains(&"list visible splats"));
             assert_same_bits(&all, &kept, &what);
-            assert_same_bits(
-                &all,
-                &draw(&mut headless, &hard, Cull::Hidden, ALL),
-                &format!("{what}, hidden"),
-            );
+            assert_same_bits(&all, &seen, &format!("{what}, hidden"));
         }
     }
     assert!(listed > 30, "{listed}");
@@ -92,10 +91,13 @@ fn tiles_without_what_is_hidden_are_the_same_bits_on_every_hard_scene() {
     let by = |invocations| with(&behind, |settings| settings.tile_invocations = invocations);
     let behind = [by(TileInvocations::Column), by(TileInvocations::ShortColumn)];
     for scene in scenes::all().into_iter().chain(behind) {
-        for hard in views(&scene, Rasterizer::Compute) {
-            let [kept, seen] = [Cull::List, Cull::Hidden].map(|cull| draw(&mut headless, &hard, cull, ALL));
-            let what = format!("{} {:?}", hard.name, hard.settings.tile_invocations);
-            assert_same_bits(&kept, &seen, &what);
+        let prepared = headless.prepare(&scene.scene, &|_, _| {}).unwrap();
+        for Hard { name, camera, settings, .. } in views(&scene, Rasterizer::Compute) {
+            let [kept, seen] = [Cull::List, Cull::Hidden].map(|cull| {
+                let settings = Settings { cull, ..settings.clone() };
+                headless.render(&prepared, &camera, &settings, ALL).unwrap()
+            });
+            assert_same_bits(&kept, &seen, &format!("{name} {:?}", settings.tile_invocations));
         }
     }
     drop(headless);

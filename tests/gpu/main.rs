@@ -1,4 +1,4 @@
-//! What is drawn, and all else that needs a device. One renderer draws for all tests, under validation; a few have a device
+//! What is drawn, and all else that needs a device. Two renderers draw for all tests, under validation; a few have a device
 //! of their own.
 
 #[path = "../common/mod.rs"]

@@ -79,17 +79,24 @@ fn near_model() -> Hard {
     Hard { name: "near model", scene, camera, settings: Settings { size_px, ..Settings::default() } }
 }
 
-/// The whole picture and a part of it, which the same crop is cut out of.
-fn whole_and_part(hard: &Hard, crop: Crop) -> (Frame, Frame) {
+/// The whole picture cut to each crop, and that part drawn by itself.
+fn wholes_and_parts(hard: &Hard) -> [(Crop, Frame, Frame); 4] {
     let mut headless = shared();
-    let whole_view = Crop { corner_px: [0; 2], size_px: hard.settings.size_px };
-    let view = crop.view(hard.settings.size_px, &hard.camera).unwrap();
-    let part = Hard { camera: view.camera, ..with(hard, |settings| settings.size_px = view.drawn_px) };
     let wanted = if hard.scene.meshes.is_empty() { ALL } else { PICTURE };
-    let part = cut(render_as(&mut headless, &part, wanted), &view);
-    let mut whole = render_as(&mut headless, hard, wanted);
-    // The crop of the whole, by itself: no code of the program.
-    let [width, _] = whole_view.size_px;
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let mut draw =
+        |camera: &Camera, settings: &Settings| headless.render(&prepared, camera, settings, wanted).unwrap();
+    let all = draw(&hard.camera, &hard.settings);
+    crops().map(|crop| {
+        let view = crop.view(hard.settings.size_px, &hard.camera).unwrap();
+        let settings = Settings { size_px: view.drawn_px, ..hard.settings.clone() };
+        (crop, within(&all, crop), cut(draw(&view.camera, &settings), &view))
+    })
+}
+
+/// A crop of the whole, by itself: no code of the program.
+fn within(whole: &Frame, crop: Crop) -> Frame {
+    let [width, _] = whole.size_px;
     let inside = |i: usize| {
         let (x, y) = (i as u32 % width, i as u32 / width);
         let within = |at: u32, axis: usize| {
@@ -100,11 +107,15 @@ fn whole_and_part(hard: &Hard, crop: Crop) -> (Frame, Frame) {
     fn kept<T: Copy>(all: &[T], inside: impl Fn(usize) -> bool) -> Vec<T> {
         (0..all.len()).filter(|i| inside(*i)).map(|i| all[i]).collect()
     }
-    whole.size_px = crop.size_px;
-    whole.linear = kept(&whole.linear, inside);
-    (whole.weight, whole.depth) = (kept(&whole.weight, inside), kept(&whole.depth, inside));
-    (whole.albedo, whole.normal) = (kept(&whole.albedo, inside), kept(&whole.normal, inside));
-    (whole, part)
+    Frame {
+        size_px: crop.size_px,
+        linear: kept(&whole.linear, inside),
+        weight: kept(&whole.weight, inside),
+        depth: kept(&whole.depth, inside),
+        albedo: kept(&whole.albedo, inside),
+        normal: kept(&whole.normal, inside),
+        ..whole.clone()
+    }
 }
 
 /// By points, quads and rays in any case; by tiles where records have the same numbers in both, and so sums the same order.
@@ -124,8 +135,7 @@ fn a_part_of_a_picture_has_the_bits_of_the_whole() {
                 (settings.rasterizer, settings.filter, settings.cull) = (rasterizer, filter, Cull::Setup);
                 settings.size_px = [300, 200];
             });
-            for crop in crops() {
-                let (whole, part) = whole_and_part(&hard, crop);
+            for (crop, whole, part) in wholes_and_parts(&hard) {
                 assert_same_bits(&whole, &part, &format!("{}, {rasterizer:?}, {crop:?}", hard.name));
             }
         }
@@ -143,8 +153,7 @@ fn elsewhere_a_part_differs_by_rounding() {
     });
     let hybrid = with(&transparent::hybrid(Transition::Color), |settings| settings.size_px = [300, 200]);
     for (hard, most) in [(tiles, 0), (hybrid, 2)] {
-        for crop in crops() {
-            let (whole, part) = whole_and_part(&hard, crop);
+        for (crop, whole, part) in wholes_and_parts(&hard) {
             let far =
                 |(a, b): (&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > 64.0 * f32::EPSILON);
             let different = whole.linear.iter().zip(&part.linear).filter(|pair| far(*pair)).count();

@@ -66,33 +66,40 @@ fn settled(view: &View<'_>) -> usize {
 
 #[test]
 fn nothing_is_drawn_where_nothing_has_changed() {
+    // Most of it is waiting: each on a screen of its own, at the same time.
+    thread::scope(|scope| {
+        for file in ["a.obj", "a.ply", "a.surfel"] {
+            scope.spawn(move || draws_what_has_changed_alone(file));
+        }
+    });
+}
+
+fn draws_what_has_changed_alone(file: &str) {
     let (screen, folder) = (Screen::new(), Folder::new());
     cube(&folder, "a.obj");
     folder.splats("a.ply", 150_000);
     assert_eq!(surfel(&folder, &["convert", "a.ply", "a.surfel"], &[]).code, 0);
-    for file in ["a.obj", "a.ply", "a.surfel"] {
-        let words = [&[file, "--size", "320x240"], &CAMERA[..]].concat();
-        let mut view = open_below(&screen, &folder, &words, ("SURFEL_COUNTED", "vkQueuePresentKHR"));
-        // Pages are drawn in another order, which turns some pixels.
-        let whole = render(&folder, &words);
-        view.wait_until("all is shown", |shot| shot.differs_from(&whole) < 100);
-        let frames = settled(&view);
-        // The mouse alone changes nothing.
-        for x in 0..20 {
-            screen.drive(&["mousemove", &(100 + x).to_string(), "100"]);
-        }
-        thread::sleep(Duration::from_secs(3));
-        assert_eq!(shown(&view), frames, "{file}");
-        assert!(frames > 0);
-        // What has changed is drawn, and then it rests again; with times, too.
-        screen.drag([100, 100], [140, 110], 1);
-        let turned = settled(&view);
-        assert!(turned > frames, "{file}");
-        screen.key("o");
-        let with_panel = settled(&view);
-        assert!(with_panel > turned, "{file}");
-        thread::sleep(Duration::from_secs(2));
-        assert_eq!(shown(&view), with_panel, "{file}");
-        view.end();
+    let words = [&[file, "--size", "320x240"], &CAMERA[..]].concat();
+    let mut view = open_below(&screen, &folder, &words, ("SURFEL_COUNTED", "vkQueuePresentKHR"));
+    // Pages are drawn in another order, which turns some pixels.
+    let whole = render(&folder, &words);
+    view.wait_until("all is shown", |shot| shot.differs_from(&whole) < 100);
+    let frames = settled(&view);
+    // The mouse alone changes nothing.
+    for x in 0..20 {
+        screen.drive(&["mousemove", &(100 + x).to_string(), "100"]);
     }
+    thread::sleep(Duration::from_secs(3));
+    assert_eq!(shown(&view), frames, "{file}");
+    assert!(frames > 0);
+    // What has changed is drawn, and then it rests again; with times, too.
+    screen.drag([100, 100], [140, 110], 1);
+    let turned = settled(&view);
+    assert!(turned > frames, "{file}");
+    screen.key("o");
+    let with_panel = settled(&view);
+    assert!(with_panel > turned, "{file}");
+    thread::sleep(Duration::from_secs(2));
+    assert_eq!(shown(&view), with_panel, "{file}");
+    view.end();
 }

@@ -22,8 +22,14 @@ use crate::{common::scenes, memory::ALLOCATIONS};
 
 const FRAMES: usize = 60;
 
+/// Enough for a dozen blocks and more.
+const SPLATS: usize = 5000;
+
 /// Frames after which nothing is made any more.
 const SETTLED: usize = 20;
+
+/// Enough to see whether settled frames take anything from the heap.
+const FEW_FRAMES: usize = SETTLED + 16;
 
 /// Of settled frames.
 struct Cost {
@@ -93,12 +99,12 @@ fn cost(
     beside: &mut Beside,
     scenes: &[Placed<'_>],
     settings: &Settings,
-    moves: bool,
+    (moves, frames): (bool, usize),
     profile: Option<Profile>,
 ) -> Cost {
     let (mut times, mut times_again) = (Vec::new(), Vec::new());
     let mut allocations = 0;
-    for number in 0..FRAMES {
+    for number in 0..frames {
         let turn = if moves { 0.01 * number as f64 } else { 0.0 };
         let camera = camera(turn);
         let hides = Some(beside.hides());
@@ -139,7 +145,7 @@ fn a_frame_like_those_before_takes_nothing_from_the_heap() {
     for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective, Rasterizer::Quad] {
         for alpha in [1.0, 0.5] {
             let mut beside = Beside::new(Style { validates: false, ..REVERSED });
-            let mut ball = scenes::sphere(20_000, DVec3::ZERO);
+            let mut ball = scenes::sphere(SPLATS, DVec3::ZERO);
             ball.splats.colors = Colors::Uniform([0.5, 0.6, 0.7, alpha]);
             let ball = beside.upload(&Scene { objects: vec![ball], ..Scene::default() });
             let settings =
@@ -148,7 +154,8 @@ fn a_frame_like_those_before_takes_nothing_from_the_heap() {
             let at = Placement { translation, ..Placement::default() };
             let placed = [Placed::at_home(&ball), Placed::new(&ball, at)];
             for moves in [false, true] {
-                let Cost { allocations, .. } = cost(&mut beside, &placed, &settings, moves, None);
+                let Cost { allocations, .. } =
+                    cost(&mut beside, &placed, &settings, (moves, FEW_FRAMES), None);
                 if allocations > 0 {
                     wrong.push(format!(
                         "{rasterizer:?}, alpha {alpha}, moves {moves}: {allocations} allocations"
@@ -169,7 +176,7 @@ fn frames_that_are_cut_or_timed_or_have_a_budget_take_nothing_from_the_heap() {
         let mut beside = Beside::new(Style { validates: false, ..REVERSED });
         let has_budget = what == "budget";
         let ball = Scene {
-            objects: vec![scenes::sphere(20_000, DVec3::ZERO)],
+            objects: vec![scenes::sphere(SPLATS, DVec3::ZERO)],
             levels: has_budget,
             budget: has_budget,
             ..Scene::default()
@@ -188,8 +195,9 @@ fn frames_that_are_cut_or_timed_or_have_a_budget_take_nothing_from_the_heap() {
         let placed = [Placed::at_home(&ball)];
         // By a budget other splats are drawn with each move, of which lists have to have room.
         let moves = if has_budget { &[false][..] } else { &[false, true] };
-        let taken =
-            moves.iter().map(|moves| cost(&mut beside, &placed, &settings, *moves, profile).allocations);
+        let taken = moves
+            .iter()
+            .map(|moves| cost(&mut beside, &placed, &settings, (*moves, FEW_FRAMES), profile).allocations);
         let taken = taken.max().unwrap();
         drop(ball);
         beside.end();
@@ -238,7 +246,7 @@ fn recording_costs_so_much() {
             let placed: Vec<_> = places.iter().map(|at| Placed::new(&ball, *at)).collect();
             for moves in [false, true] {
                 let Cost { us: [median, most], again_us, allocations } =
-                    cost(&mut beside, &placed, &settings, moves, None);
+                    cost(&mut beside, &placed, &settings, (moves, FRAMES), None);
                 let camera = if moves { "moves" } else { "still" };
                 let ours = match moves {
                     true => "".to_owned(),

@@ -1,5 +1,7 @@
 //! What is to be seen of a scene, which of its pixels nobody can decide, and what a rounded place makes of the others.
 
+use std::rc::Rc;
+
 use glam::DVec3;
 use surfel::{
     reference::{Picture, Pixel},
@@ -11,7 +13,7 @@ use crate::common::{oracle_of, scenes::Hard, with};
 
 /// The oracle's picture.
 pub struct Truth {
-    pub picture: Picture,
+    pub picture: Rc<Picture>,
     /// Rounding may turn what is seen there.
     pub undecided: Vec<bool>,
     /// How much each figure of a pixel changes with its place.

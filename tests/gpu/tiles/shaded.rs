@@ -6,17 +6,20 @@ use glam::DVec3;
 use surfel::{
     hard_scenes::{Hard, sphere, transparent},
     renderer::{Headless, Wanted},
-    scene::{Accumulate, Cull, Light, LightKind, Scene, Shading, Transition},
+    scene::{Accumulate, Cull, Light, LightKind, Rasterizer, Scene, Settings, Shading, Transition},
 };
 
 /// Whether tiles are shaded at once; then they are as they are by their sums.
 pub fn is_shaded_as_by_sums(headless: &mut Headless, hard: &Hard) -> bool {
-    let at_once = by_tiles(headless, hard, PICTURE);
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let settings = Settings { rasterizer: Rasterizer::Compute, ..hard.settings.clone() };
+    let mut draw = |wanted| headless.render(&prepared, &hard.camera, &settings, wanted).unwrap();
+    let at_once = draw(PICTURE);
     if !passes(&at_once).contains(&"see, sum and shade tiles") {
         return false;
     }
     assert!(hard.scene.meshes.is_empty() || hard.settings.transition != Transition::Attributes);
-    let by_sums = by_tiles(headless, hard, ALL);
+    let by_sums = draw(ALL);
     assert!(!passes(&by_sums).contains(&"see, sum and shade tiles"));
     // Some ten operations, whose order each stage's compiler decides. By their sums, normals of polygons are normalized twice: of what
     // that rounds a highlight, the 32nd power of a cosine of twice the angle, makes 64 times as much, of which 0.2 is seen.
