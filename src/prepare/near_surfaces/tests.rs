@@ -72,3 +72,29 @@ fn strays_heaps_and_giants_end() {
     let at_one_place = Splats { positions: vec![DVec3::ONE; many.len()], ..many };
     assert_eq!(shares(&at_one_place, 1.0), None);
 }
+
+/// In a plane that has gaps, on a line, and at random.
+#[test]
+fn cells_of_a_box_are_all_that_are_in_it_in_their_order() {
+    let mut random = SplitMix(12);
+    for case in 0..3 {
+        let mut at = |axis: usize| match (case, axis) {
+            (0, 2) | (1, 1 | 2) => 0.5,
+            _ => (12.0 * random.unit()).floor() - 6.0 + 0.5,
+        };
+        let positions: Vec<DVec3> = (0..200).map(|_| DVec3::new(at(0), at(1), at(2))).collect();
+        let count = positions.len();
+        let shapes = Shapes::Disks { normals: vec![Vec3::Z; count], radii: vec![1.0; count] };
+        let splats = Splats::new(positions, shapes, Colors::Uniform([1.0; 4]));
+        let grid = Grid::new(&splats, (0..count as u32).collect(), 1.0);
+        for _ in 0..300 {
+            let mut corner = |most: f64| [0; 3].map(|_| (most * (random.unit() - 0.5)) as i32);
+            let (a, size) = (corner(20.0), corner(16.0));
+            let b: [i32; 3] = std::array::from_fn(|axis| a[axis] + size[axis].abs());
+            let found: Vec<_> = grid.within([a, b]).map(|cell| grid.at(cell)).collect();
+            let is_inside = |cell: &[i32; 3]| (0..3).all(|axis| (a[axis]..=b[axis]).contains(&cell[axis]));
+            let all: Vec<_> = grid.cells.iter().map(|cell| grid.at(cell)).filter(is_inside).collect();
+            assert_eq!(found, all, "{a:?} to {b:?}");
+        }
+    }
+}
