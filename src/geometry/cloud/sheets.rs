@@ -182,3 +182,35 @@ impl Fours {
         Sheet { normal, middle: sum.element_sum() / count, ..*sheet }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::SplitMix;
+
+    /// Of any number of neighbors, which fours need not divide.
+    #[test]
+    fn by_fours_sheets_have_the_points_and_the_planes_that_they_have_one_by_one() {
+        let mut random = SplitMix(7);
+        for count in 3..=MOST_NEIGHBORS {
+            let mut unit = || 2.0 * random.unit() - 1.0;
+            let offsets: Vec<DVec3> = (0..count).map(|_| DVec3::new(unit(), unit(), 0.2 * unit())).collect();
+            let fours = Fours::new(&offsets, 0.5);
+            for middle in [0.0, 0.1, 0.5] {
+                let normal = DVec3::new(0.3 * unit(), 0.3 * unit(), 1.0).normalize();
+                let sheet = Sheet { middle, ..Sheet::new(normal, 0.3) };
+                let is_on = |o: DVec3| (normal.dot(o) / 0.5 - f64::from(middle)).abs() <= 0.3;
+                let on: Vec<DVec3> = offsets.iter().copied().filter(|o| is_on(*o)).collect();
+                assert_eq!(fours.within(&sheet, 0.3), on.len() as f32, "{count} {middle}");
+                let (found, truth) = (fours.fit(&sheet), Plane::fit(&offsets, is_on));
+                assert!((found.mean - truth.mean).length() < 1e-6, "{count} {middle}: {found:?} {truth:?}");
+                if on.len() > 4 {
+                    assert!((found.thickness - truth.thickness).abs() < 1e-4, "{found:?} {truth:?}");
+                    assert!(found.normal.cross(truth.normal).length() < 1e-4, "{found:?} {truth:?}");
+                }
+                let along = on.iter().map(|o| normal.dot(*o) / 0.5).sum::<f64>() / (on.len() + 1) as f64;
+                assert!((f64::from(fours.moved(&sheet, normal).middle) - along).abs() < 1e-6);
+            }
+        }
+    }
+}
