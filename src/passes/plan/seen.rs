@@ -129,3 +129,33 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
         (start < end).then_some(start..end)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_those_of_all_runs_wherever_the_first_and_the_last_are() {
+        let run = |rows: Range<u32>| PotentiallyVisibleRun {
+            first: 0,
+            blocks: 1,
+            count: 256,
+            box_px: 4.0,
+            rows,
+            all_seen: true,
+            all_of_level: true,
+        };
+        let arena = Arena::new();
+        let rows = |chunks: &[&[PotentiallyVisibleRun]]| {
+            PotentiallyVisibleBlocks::new(
+                &arena,
+                arena.list(chunks.iter().map(|runs| &*arena.list(runs.iter().cloned()))),
+                20,
+            )
+            .rows()
+        };
+        assert_eq!(rows(&[&[run(5..7), run(2..4)], &[run(9..12), run(6..8)]]), Some(2..12));
+        assert_eq!(rows(&[&[], &[run(3..4)]]), Some(3..4));
+        assert_eq!(rows(&[&[], &[]]), None);
+    }
+}
