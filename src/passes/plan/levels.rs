@@ -129,10 +129,11 @@ impl LevelView {
         mut most: f64,
     ) -> f64 {
         let all = &tree.of_detail[level];
-        for place in range.start..range.end.min(all.len()) {
-            let px = self.largest_box_px(&all[place], filter_px);
+        let range = range.start..range.end.min(all.len());
+        for (place, bounds) in range.clone().zip(&all[range]) {
+            let px = self.largest_box_px(bounds, filter_px);
             // Nothing below has a larger one.
-            if px > most && self.of(&all[place]) != OfBlock::None {
+            if px > most && self.of(bounds) != OfBlock::None {
                 let below = |level| {
                     let children = place * CHILDREN..(place + 1) * CHILDREN;
                     self.largest_below(tree, (level, children), filter_px, most)

@@ -149,7 +149,7 @@ mod tests {
         let rows = |chunks: &[&[PotentiallyVisibleRun]]| {
             PotentiallyVisibleBlocks::new(
                 &arena,
-                arena.list(chunks.iter().map(|runs| &*arena.list(runs.iter().cloned()))),
+                arena.list(chunks.iter().map(|runs| arena.list(runs.iter().cloned()))),
                 20,
             )
             .rows()
