@@ -8,7 +8,7 @@ use surfel::{
 };
 
 use crate::{
-    handle::{Out, destroy, get, get_mut, null},
+    handle::{Out, Place, destroy, get, null},
     requirements::{PFN_vkGetInstanceProcAddr, features_of, load_device, load_instance},
     result::{SurfelResult, guard},
     structs::{Struct, SurfelStructureType, read},
@@ -89,8 +89,8 @@ pub unsafe extern "C" fn surfel_device_end_epoch(
 ) -> SurfelResult {
     guard("surfel_device_end_epoch", || {
         // SAFETY: the contract of the header.
-        let (device, epoch) = unsafe { (get(device, "device")?, get_mut(epoch, "epoch")?) };
-        *epoch = device.0.end_epoch();
+        let (device, epoch) = unsafe { (get(device, "device")?, Place::new(epoch, "epoch")?) };
+        epoch.write(device.0.end_epoch());
         Ok(())
     })
 }
@@ -116,8 +116,9 @@ pub unsafe extern "C" fn surfel_device_memory(
     guard("surfel_device_memory", || {
         // SAFETY: the contract of the header.
         let (device, used, held) =
-            unsafe { (get(device, "device")?, get_mut(used, "used")?, get_mut(held, "held")?) };
-        (*used, *held) = (device.0.memory_in_use().0, device.0.memory_held());
+            unsafe { (get(device, "device")?, Place::new(used, "used")?, Place::new(held, "held")?) };
+        used.write(device.0.memory_in_use().0);
+        held.write(device.0.memory_held());
         Ok(())
     })
 }

@@ -5,7 +5,7 @@ use std::ffi::c_void;
 use surfel::{ash::vk, embed::DynamicSplats, glam::DVec3};
 
 use crate::{
-    handle::{Out, get, get_mut},
+    handle::{Out, Place, get, get_mut},
     renderer::{SurfelPreparedScene, SurfelRenderer},
     result::{Failure, SurfelResult, guard},
     structs::{Struct, SurfelStructureType, read},
@@ -104,11 +104,12 @@ pub unsafe extern "C" fn surfel_dynamic_buffers(
     guard("surfel_dynamic_buffers", || {
         // SAFETY: the contract of the header.
         let (scene, shapes, colors) =
-            unsafe { (get(scene, "scene")?, get_mut(shapes, "shapes")?, get_mut(colors, "colors")?) };
+            unsafe { (get(scene, "scene")?, Place::new(shapes, "shapes")?, Place::new(colors, "colors")?) };
         let buffers = scene.0.dynamic_buffers().ok_or_else(|| {
             Failure::invalid("scene: it was uploaded: expected one of surfel_dynamic_create")
         })?;
-        (*shapes, *colors) = (buffers.shapes, buffers.colors);
+        shapes.write(buffers.shapes);
+        colors.write(buffers.colors);
         Ok(())
     })
 }

@@ -154,10 +154,10 @@ unsafe fn with_scenes<'a>(
         });
     }
     let size_px = [given.width, given.height];
-    // SAFETY: as above.
-    let settings = match unsafe { given.settings.as_ref() } {
-        Some(SurfelSettings(settings)) => Settings { size_px, ..settings.clone() },
-        None => Settings { size_px, ..Settings::default() },
+    let settings = match given.settings.is_null() {
+        true => Settings { size_px, ..Settings::default() },
+        // SAFETY: as above.
+        false => Settings { size_px, ..unsafe { get(given.settings, "settings") }?.0.clone() },
     };
     let hides = match given.hides.is_null() {
         true => None,

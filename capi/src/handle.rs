@@ -4,24 +4,38 @@ use std::ffi::{CStr, c_char};
 
 use crate::result::{Failure, Result};
 
+/// Where a value goes that a call tells: nothing is read from there, so that C need not have set it.
+pub struct Place<T>(*mut T);
+
+impl<T> Place<T> {
+    /// # Safety
+    /// `to` is NULL, not aligned, or may be written for as long as this lives.
+    pub unsafe fn new(to: *mut T, name: &str) -> Result<Self> {
+        check(to, name)?;
+        Ok(Self(to))
+    }
+
+    pub fn write(&self, value: T) {
+        // SAFETY: `new`'s contract; aligned.
+        unsafe { self.0.write(value) };
+    }
+}
+
 /// Where an object goes that a call makes; NULL until it is made.
-pub struct Out<T>(*mut *mut T);
+pub struct Out<T>(Place<*mut T>);
 
 impl<T> Out<T> {
     /// # Safety
-    /// `out` is NULL or may be written.
+    /// As [`Place::new`].
     pub unsafe fn new(out: *mut *mut T, name: &str) -> Result<Self> {
-        if out.is_null() {
-            return Err(null(name));
-        }
         // SAFETY: this function's contract.
-        unsafe { out.write(std::ptr::null_mut()) };
-        Ok(Self(out))
+        let place = unsafe { Place::new(out, name) }?;
+        place.write(std::ptr::null_mut());
+        Ok(Self(place))
     }
 
     pub fn give(self, object: T) -> Result<()> {
-        // SAFETY: `new`'s contract.
-        unsafe { self.0.write(Box::into_raw(Box::new(object))) };
+        self.0.write(Box::into_raw(Box::new(object)));
         Ok(())
     }
 }
@@ -30,18 +44,29 @@ pub fn null(name: &str) -> Failure {
     Failure::invalid(format!("{name} is NULL"))
 }
 
-/// # Safety
-/// `object` is NULL or lives as long as what is returned, and nobody changes it meanwhile.
-pub unsafe fn get<'a, T>(object: *const T, name: &str) -> Result<&'a T> {
-    // SAFETY: this function's contract.
-    unsafe { object.as_ref() }.ok_or_else(|| null(name))
+/// Refuses a pointer that leads nowhere, or to where no such thing can be.
+pub fn check<T>(pointer: *const T, name: &str) -> Result<()> {
+    match pointer.is_aligned() {
+        _ if pointer.is_null() => Err(null(name)),
+        true => Ok(()),
+        false => Err(Failure::invalid(format!("{name} is not aligned"))),
+    }
 }
 
 /// # Safety
-/// `object` is NULL or lives as long as what is returned, and nobody else uses it meanwhile.
-pub unsafe fn get_mut<'a, T>(object: *mut T, name: &str) -> Result<&'a mut T> {
+/// `object` is NULL, not aligned, or lives as long as what is returned, and nobody changes it meanwhile.
+pub unsafe fn get<'a, T>(object: *const T, name: &str) -> Result<&'a T> {
+    check(object, name)?;
     // SAFETY: this function's contract.
-    unsafe { object.as_mut() }.ok_or_else(|| null(name))
+    Ok(unsafe { &*object })
+}
+
+/// # Safety
+/// `object` is NULL, not aligned, or lives as long as what is returned, and nobody else uses it meanwhile.
+pub unsafe fn get_mut<'a, T>(object: *mut T, name: &str) -> Result<&'a mut T> {
+    check(object, name)?;
+    // SAFETY: this function's contract.
+    Ok(unsafe { &mut *object })
 }
 
 /// # Safety

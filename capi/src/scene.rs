@@ -9,7 +9,7 @@ use surfel::{
 };
 
 use crate::{
-    handle::{Out, destroy, get, get_mut, text},
+    handle::{Out, Place, destroy, get, get_mut, text},
     result::{Failure, Result, SurfelResult, guard},
     settings::set,
     splats::{SurfelSplats, object},
@@ -190,10 +190,12 @@ pub unsafe extern "C" fn surfel_scene_ball(
     guard("surfel_scene_ball", || {
         // SAFETY: the contract of the header.
         let (scene, center, radius) = unsafe {
-            (get(scene, "scene")?, get_mut(center.cast::<[f64; 3]>(), "center")?, get_mut(radius, "radius")?)
+            let center = Place::new(center.cast::<[f64; 3]>(), "center")?;
+            (get(scene, "scene")?, center, Place::new(radius, "radius")?)
         };
         let ball = scene.0.ball().ok_or_else(|| Failure::invalid("there is nothing in the scene"))?;
-        (*center, *radius) = (ball.center.to_array(), ball.radius);
+        center.write(ball.center.to_array());
+        radius.write(ball.radius);
         Ok(())
     })
 }

@@ -4,7 +4,7 @@
 use std::{ffi::c_void, mem::MaybeUninit};
 
 use crate::{
-    handle::null,
+    handle::check as check_pointer,
     result::{Failure, Result, SurfelResult},
 };
 
@@ -36,6 +36,9 @@ pub enum SurfelStructureType {
     HostImage = 11,
 }
 
+/// No struct is larger in any version: a size beyond is none that a header gave it.
+const MOST_BYTES: usize = 1 << 16;
+
 /// How each begins.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -58,12 +61,7 @@ pub unsafe trait Struct: Copy {
 /// # Safety
 /// `given` is NULL or begins as [`Head`] does, and has the size that it says.
 unsafe fn check<T: Struct>(given: *const T, name: &str) -> Result<usize> {
-    if given.is_null() {
-        return Err(null(name));
-    }
-    if !given.is_aligned() {
-        return Err(Failure::invalid(format!("{name} is not aligned")));
-    }
+    check_pointer(given, name)?;
     // SAFETY: this function's contract.
     let Head { s_type, size, p_next } = unsafe { given.cast::<Head>().read() };
     let unknown = |text| Failure { code: SurfelResult::UnknownStruct, text };
@@ -77,7 +75,7 @@ unsafe fn check<T: Struct>(given: *const T, name: &str) -> Result<usize> {
         return Err(unknown(format!("{name}: pNext leads to sType {next}, which does not extend it")));
     }
     let (size, known) = (size as usize, size_of::<T>());
-    if size < size_of::<Head>() {
+    if !(size_of::<Head>()..=MOST_BYTES).contains(&size) {
         return Err(Failure::invalid(format!("{name}: size {size}: expected its sizeof")));
     }
     // SAFETY: this function's contract, and bytes that are not ours to name are still bytes.

@@ -12,7 +12,7 @@ use surfel::{
 
 use crate::{
     frame::{SceneList, SurfelFrame, with_frame},
-    handle::{Out, destroy, get, get_mut, null},
+    handle::{Out, Place, destroy, get, get_mut, null},
     images::{SurfelHostImage, host_image},
     renderer::SurfelRenderer,
     result::{Failure, Result, SurfelResult, guard},
@@ -232,8 +232,8 @@ pub unsafe extern "C" fn surfel_view_times(
 pub unsafe extern "C" fn surfel_view_bytes(view: *const SurfelView, bytes: *mut u64) -> SurfelResult {
     guard("surfel_view_bytes", || {
         // SAFETY: the contract of the header.
-        let (view, bytes) = unsafe { (get(view, "view")?, get_mut(bytes, "bytes")?) };
-        *bytes = view.view.bytes();
+        let (view, bytes) = unsafe { (get(view, "view")?, Place::new(bytes, "bytes")?) };
+        bytes.write(view.view.bytes());
         Ok(())
     })
 }

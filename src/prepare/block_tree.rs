@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::{blocks::Block, quad::Quad};
+use super::{blocks::Block, level_bounds::LevelBounds, quad::Quad};
 
 /// Nodes that have one above them: as many as a [`Quad`] has bounds.
 pub const CHILDREN: usize = 4;
@@ -15,8 +15,10 @@ const MOST_ON_TOP: usize = 32;
 /// Bounds of blocks and of runs of them, which lie near each other as their splats do.
 #[derive(Clone, Debug, Default)]
 pub struct BlockTree {
-    /// The blocks; then those above them, level by level up to the top. Of blocks with levels of detail, these alone.
+    /// The blocks; then those above them, level by level up to the top.
     pub levels: Vec<Vec<Quad>>,
+    /// What decides about the levels of detail of each of them, alike, one by one; nothing where there are none.
+    pub of_detail: Vec<Vec<LevelBounds>>,
 }
 
 impl BlockTree {
@@ -25,16 +27,19 @@ impl BlockTree {
         let quads = |blocks: &[Block]| blocks.chunks(CHILDREN).map(Quad::of).collect();
         let mut levels = vec![quads(blocks)];
         levels.extend(above(blocks).iter().map(|blocks| quads(blocks)));
-        Self { levels }
+        let bounds: Option<Vec<LevelBounds>> =
+            blocks.iter().map(|block| Some(block.levels.as_ref()?.bounds)).collect();
+        let mut of_detail = Vec::from_iter(bounds);
+        while let Some(below) = of_detail.last().filter(|_| of_detail.len() < levels.len()) {
+            of_detail.push(below.chunks(CHILDREN).map(LevelBounds::around).collect());
+        }
+        Self { levels, of_detail }
     }
 }
 
-/// Bounds of [`CHILDREN`] of these blocks, then of as many of those, and so on up to the top. None of few blocks, or of such with levels of detail.
+/// Bounds of [`CHILDREN`] of these blocks, then of as many of those, and so on up to the top. None of few blocks.
 pub(super) fn above(blocks: &[Block]) -> Vec<Vec<Block>> {
     let mut levels: Vec<Vec<Block>> = Vec::new();
-    if blocks.iter().any(|block| block.levels.is_some()) {
-        return levels;
-    }
     loop {
         let below = levels.last().map_or(blocks, |level| level);
         if below.len() <= MOST_ON_TOP {

@@ -4,6 +4,7 @@
 
 use glam::DVec3;
 
+use super::level_bounds::{BallBounds, LevelBounds};
 use crate::{
     geometry::hierarchy::by_spread,
     scene::{ErrorBall, HybridLevels, LeveledObject, NodeBalls, Object, Opacity, Splats},
@@ -46,17 +47,11 @@ impl LevelPart {
     }
 }
 
-/// The bounds of what decides about the splats of a block, in the space of levels. Distances are from `center`.
+/// What decides about the splats of a block.
 #[derive(Clone, Copy, Debug)]
 pub struct BlockLevels {
-    /// About in the middle of their centers.
-    pub center: DVec3,
-    /// Of the splats' own balls; all 0 where they are the object's.
-    pub own: BallBounds,
-    /// Of their parents'.
-    pub parent: BallBounds,
-    /// No splat's larger half axis is more times the spread of a ball of its own; 0 where they are the object's.
-    pub longest: f64,
+    /// Of all of them.
+    pub bounds: LevelBounds,
     /// Of the splats' own spreads, from the least on, those at each `RANK`th place behind the first; infinite behind the last.
     pub least_own: [f32; RANKS],
     /// Of their parents', one for each splat, from the largest on, alike; 0 behind the last.
@@ -66,17 +61,6 @@ pub struct BlockLevels {
 /// Places between spreads of a block that are kept, and how many these are.
 const RANK: usize = 16;
 pub const RANKS: usize = BLOCK_SPLATS as usize / RANK - 1;
-
-/// Bounds of balls around a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BallBounds {
-    /// The largest distance of a ball's farthest point.
-    pub reach: f64,
-    /// The largest distance of a ball's center, less its radius; may be below 0.
-    pub far: f64,
-    /// The least and the largest spread.
-    pub spreads: [f64; 2],
-}
 
 /// An object in levels.
 pub(super) struct Leveled {
@@ -226,35 +210,9 @@ impl BlockLevels {
         let center = if lo.is_finite() { 0.5 * (lo + hi) } else { DVec3::ZERO };
         let of = |balls: &[ErrorBall]| BallBounds::of(center, balls.iter());
         Self {
-            center,
-            own: of(own),
-            parent: of(&parents),
-            longest,
+            bounds: LevelBounds { center, own: of(own), parent: of(&parents), longest },
             least_own: std::array::from_fn(|rank| at(&least, rank, f32::INFINITY)),
             largest_parents: std::array::from_fn(|rank| at(&largest, rank, 0.0)),
-        }
-    }
-}
-
-impl BallBounds {
-    /// Those of some balls, around a place.
-    pub(super) fn of<'a>(center: DVec3, balls: impl Iterator<Item = &'a ErrorBall>) -> Self {
-        let none = Self { reach: 0.0, far: f64::NEG_INFINITY, spreads: [f64::INFINITY, 0.0] };
-        let bounds = balls.fold(none, |bounds, ball| {
-            let distance = center.distance(ball.center.as_dvec3());
-            let (radius, spread) = (f64::from(ball.radius), f64::from(ball.spread));
-            let [least, most] = bounds.spreads;
-            Self {
-                reach: bounds.reach.max(distance + radius),
-                far: bounds.far.max(distance - radius),
-                spreads: [least.min(spread), most.max(spread)],
-            }
-        });
-        // Of none: as if of one that is nothing.
-        if bounds.far == f64::NEG_INFINITY {
-            Self { reach: 0.0, far: 0.0, spreads: [0.0; 2] }
-        } else {
-            bounds
         }
     }
 }

@@ -5,7 +5,8 @@
 use glam::DVec3;
 
 use super::{
-    levels::{BallBounds, LevelSpace, Leveled},
+    level_bounds::BallBounds,
+    levels::{LevelSpace, Leveled},
     rebase::Rebase,
 };
 use crate::{

@@ -22,12 +22,37 @@ pub struct BufferDesc<'a> {
     pub usage: vk::BufferUsageFlags,
 }
 
+impl BufferDesc<'_> {
+    /// Refuses what the device does not have.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Option`] for a size or a usage.
+    pub(crate) fn check(&self, device: &Device) -> Result<()> {
+        let Self { name, size, usage } = *self;
+        if size == 0 {
+            return Err(Error::option(name, "a buffer of 0 bytes: at least 1"));
+        }
+        let largest = device.facts().limits.max_buffer_size;
+        if size > largest {
+            return Err(Error::option(
+                name,
+                format!("a buffer of {size} bytes: the device makes at most {largest}"),
+            ));
+        }
+        if usage.is_empty() || !usages_of_all().contains(usage) {
+            return Err(Error::option(name, format!("a buffer for {usage:?}")));
+        }
+        Ok(())
+    }
+}
+
 /// A buffer with memory of its own or in a shared block.
 pub struct Buffer {
     device: Device,
     raw: vk::Buffer,
     texels: vk::BufferView,
     size: u64,
+    usage: vk::BufferUsageFlags,
     allocation: Option<Piece>,
 }
 
@@ -112,6 +137,11 @@ impl Buffer {
         self.size
     }
 
+    /// Whether it is of a device, and copies to it are allowed.
+    pub(super) fn takes_copies(&self, device: &Device) -> bool {
+        self.device.is(device) && self.usage.contains(vk::BufferUsageFlags::TRANSFER_DST)
+    }
+
     /// Its bytes, where the host can see them ([`MemoryUse::Upload`], [`MemoryUse::Readback`]); else empty.
     ///
     /// # Safety
@@ -133,23 +163,20 @@ impl Buffer {
 
     /// The buffer without memory and view: an owner already, so that no failure after it leaks the handle.
     fn unbound(device: &Device, desc: BufferDesc<'_>) -> Result<Self> {
-        if desc.size == 0 {
-            return Err(Error::option(desc.name, "a buffer of 0 bytes: at least 1"));
-        }
-        let largest = device.facts().limits.max_buffer_size;
-        if desc.size > largest {
-            let problem = format!("a buffer of {} bytes: the device makes at most {largest}", desc.size);
-            return Err(Error::option(desc.name, problem));
-        }
-        if desc.usage.is_empty() || !usages_of_all().contains(desc.usage) {
-            return Err(Error::option(desc.name, format!("a buffer for {:?}", desc.usage)));
-        }
+        desc.check(device)?;
         let info = vk::BufferCreateInfo::default().size(desc.size).usage(desc.usage);
         // SAFETY: the device is alive; the size is above 0 and within the device's; every device has the usage.
         let raw = unsafe { device.raw().create_buffer(&info, None) }.of_call("vkCreateBuffer", desc.name)?;
         device.set_name(raw, desc.name);
-        let (size, texels) = (desc.size, vk::BufferView::null());
-        Ok(Self { device: device.clone(), raw, texels, size, allocation: None })
+        let BufferDesc { size, usage, .. } = desc;
+        Ok(Self {
+            device: device.clone(),
+            raw,
+            texels: vk::BufferView::null(),
+            size,
+            usage,
+            allocation: None,
+        })
     }
 }
 

@@ -46,7 +46,7 @@ pub struct SetLayout {
     owned: Owned<vk::DescriptorSetLayout>,
     /// Of no other layout of the process, as a handle may be.
     number: u64,
-    kinds: Vec<vk::DescriptorType>,
+    bindings: Vec<Binding>,
     // Used by the layout, so that it goes after it.
     _sampler: Option<Sampler>,
     /// The stand-ins for what its sets are not given, and the bindings of texels that are unsigned integers.
@@ -89,10 +89,10 @@ impl SetLayout {
         let raw = unsafe { device.raw().create_descriptor_set_layout(&info, None) }
             .of_call("vkCreateDescriptorSetLayout", name)?;
         let owned = device.own(raw, name, Retired::SetLayout);
-        let kinds = bindings.iter().map(|binding| binding.kind).collect();
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        Ok(Self { owned, number, kinds, _sampler: sampler, stand_ins: None })
+        let bindings = bindings.to_vec();
+        Ok(Self { owned, number, bindings, _sampler: sampler, stand_ins: None })
     }
 
     /// This layout with sets that are complete: what they are not given has a stand-in. `integers`: the bindings of texels that are
@@ -100,6 +100,11 @@ impl SetLayout {
     pub fn with_stand_ins(mut self, stand_ins: &Arc<StandIns>, integers: &[u32]) -> Self {
         self.stand_ins = Some((Arc::clone(stand_ins), integers.to_vec()));
         self
+    }
+
+    /// Its bindings.
+    pub(super) fn bindings(&self) -> &[Binding] {
+        &self.bindings
     }
 
     /// Whether it is of this device.
@@ -212,7 +217,7 @@ impl DescriptorPool {
     /// The set is of this layout, and no command buffer uses it.
     unsafe fn complete(&self, layout: &SetLayout, set: vk::DescriptorSet, bindings: u64) -> Result<()> {
         let Some((stand_ins, integers)) = &layout.stand_ins else { return Ok(()) };
-        for (number, kind) in (0..).zip(&layout.kinds) {
+        for (number, Binding { kind, .. }) in (0..).zip(&layout.bindings) {
             if bindings >> number & 1 == 0 {
                 let stand_in = stand_ins.of(*kind, integers.contains(&number))?;
                 // SAFETY: as the caller promises; stand-ins are of the binding's kind, and live as long as the layout.
@@ -230,7 +235,7 @@ impl DescriptorPool {
         let infos: InlineVec<_, AT_ONCE> =
             some.iter().map(|(number, descriptor)| (*number, Info::of(*descriptor))).collect();
         let writes = infos.iter().map(|(number, info)| {
-            let kind = layout.kinds[*number as usize];
+            let Binding { kind, .. } = layout.bindings[*number as usize];
             let write =
                 vk::WriteDescriptorSet::default().dst_set(set).dst_binding(*number).descriptor_type(kind);
             match info {

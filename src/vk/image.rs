@@ -25,6 +25,24 @@ pub struct ImageDesc<'a> {
 }
 
 impl ImageDesc<'_> {
+    /// Refuses what the device does not have.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Option`] for a size, a format or a usage.
+    pub(crate) fn check(&self, device: &Device) -> Result<()> {
+        let vk::Extent2D { width, height } = self.extent;
+        let side = device.facts().limits.max_image_side;
+        if ![width, height].iter().all(|side_px| (1..=side).contains(side_px)) {
+            let problem = format!("an image of {width}x{height} pixels: the device has 1 to {side} a side");
+            return Err(Error::option(self.name, problem));
+        }
+        if !is_made(device, *self) {
+            let problem = format!("an image of {:?} for {:?}: the device has none", self.format, self.usage);
+            return Err(Error::option(self.name, problem));
+        }
+        Ok(())
+    }
+
     /// The description in Vulkan's own form.
     pub fn create_info(&self) -> vk::ImageCreateInfo<'static> {
         vk::ImageCreateInfo::default()
@@ -131,16 +149,7 @@ impl Image {
 
     /// The image without memory and view: an owner already, so that no failure after it leaks the handle.
     fn unbound(device: &Device, desc: ImageDesc<'_>, info: &vk::ImageCreateInfo<'_>) -> Result<Self> {
-        let vk::Extent2D { width, height } = desc.extent;
-        let side = device.facts().limits.max_image_side;
-        if ![width, height].iter().all(|side_px| (1..=side).contains(side_px)) {
-            let problem = format!("an image of {width}x{height} pixels: the device has 1 to {side} a side");
-            return Err(Error::option(desc.name, problem));
-        }
-        if !is_made(device, desc) {
-            let problem = format!("an image of {:?} for {:?}: the device has none", desc.format, desc.usage);
-            return Err(Error::option(desc.name, problem));
-        }
+        desc.check(device)?;
         // SAFETY: the device is alive; the size is within its limits; it has such images.
         let raw = unsafe { device.raw().create_image(info, None) }.of_call("vkCreateImage", desc.name)?;
         device.set_name(raw, desc.name);

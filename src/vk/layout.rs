@@ -2,7 +2,9 @@
 
 use ash::vk;
 
-use super::{descriptors::SetLayout, device::Device, garbage::Retired, owned::Owned, result::VkResultExt};
+use super::{
+    descriptors::SetLayout, device::Device, garbage::Retired, owned::Owned, result::VkResultExt, stage_limits,
+};
 use crate::error::{Error, Result};
 
 /// What every device has: bytes that are pushed, and sets; and the stages that we use.
@@ -24,7 +26,7 @@ impl PipelineLayout {
     /// A layout of `sets` (set 0 first) and `push_bytes` of push constants seen by `push_stages`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] for more than every device has, and for sets of another device; whatever the driver answers.
+    /// [`crate::ErrorKind::Option`] for more sets and bytes than every device has, for more descriptors than this one has, and for sets of another device; whatever the driver answers.
     pub fn new(
         device: &Device,
         name: &str,
@@ -42,11 +44,12 @@ impl PipelineLayout {
         if !sets.iter().all(|set| set.is_of(device)) {
             return Err(Error::option(name, "a set of another device"));
         }
+        stage_limits::check(device, name, sets.iter().flat_map(|set| set.bindings()))?;
         let sets: Vec<_> = sets.iter().map(|set| set.raw()).collect();
         let push = [vk::PushConstantRange::default().stage_flags(push_stages).size(push_bytes)];
         let push: &[_] = if push_bytes > 0 { &push } else { &[] };
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets).push_constant_ranges(push);
-        // SAFETY: the set layouts are alive and belong to this device.
+        // SAFETY: the set layouts are alive and belong to this device, whose limits were looked at.
         let raw = unsafe { device.raw().create_pipeline_layout(&info, None) }
             .of_call("vkCreatePipelineLayout", name)?;
         Ok(Self { owned: device.own(raw, name, Retired::PipelineLayout), push_stages })

@@ -37,6 +37,7 @@ mod result;
 mod sampler;
 #[cfg(feature = "view")]
 mod semaphore;
+mod stage_limits;
 mod staging;
 mod stand_ins;
 #[cfg(feature = "view")]

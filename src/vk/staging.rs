@@ -32,8 +32,11 @@ impl Staging {
     /// Adds bytes for `target`, whose usage includes `TRANSFER_DST`, from its byte `offset` on.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] if the batch or the target has no room for them.
+    /// [`crate::ErrorKind::Option`] if the batch or the target has no room for them, and if the target is another device's or not to be copied to.
     pub fn push(&mut self, target: &Buffer, offset: u64, bytes: &[u8]) -> Result<()> {
+        if !target.takes_copies(&self.device) {
+            return Err(Error::option("upload", "the target is of another device, or without TRANSFER_DST"));
+        }
         let begin = self.used;
         // SAFETY: `record` asks that nothing be added while the device reads.
         let room = unsafe { self.buffer.bytes_mut() }.get_mut(begin..begin + bytes.len());
@@ -56,7 +59,8 @@ impl Staging {
     /// indices.
     ///
     /// # Safety
-    /// `commands` must be recording outside of rendering; the targets are alive until it has run, and nothing is
+    /// `commands` are of this device, and must be recording outside of rendering; they are submitted in the epoch in which the batch is dropped, or before. No two of the
+    /// batch's copies overlap. The targets are alive until the commands have run, what was done with them before is waited for, and nothing is
     /// [pushed](Self::push) until then.
     pub unsafe fn record(&self, commands: vk::CommandBuffer) {
         let barriers = [vk::MemoryBarrier2::default()

@@ -40,6 +40,26 @@ static void structs(void) {
     surfel_scene_destroy(NULL);
 }
 
+/* Nothing is read or written where no such thing can be. */
+static void pointers(void) {
+    uint64_t room[8] = {0};
+    char *const odd = (char *)room + 1;
+    SurfelScene *scene;
+    IS(INVALID_ARGUMENT, surfel_scene_create(NULL, (void *)odd), "scene is not aligned");
+    IS(INVALID_ARGUMENT, surfel_scene_create((void *)odd, &scene), "info is not aligned");
+    OK(surfel_scene_create(NULL, &scene));
+    double center[3], radius;
+    IS(INVALID_ARGUMENT, surfel_scene_ball((void *)odd, center, &radius), "scene is not aligned");
+    IS(INVALID_ARGUMENT, surfel_scene_ball(scene, (void *)odd, &radius), "center is not aligned");
+    IS(INVALID_ARGUMENT, surfel_scene_ball(scene, center, (void *)odd), "radius is not aligned");
+    IS(INVALID_ARGUMENT, surfel_scene_set((void *)odd, "order", "input"), "scene is not aligned");
+    IS(INVALID_ARGUMENT, surfel_device_end_epoch((void *)odd, room), "device is not aligned");
+    surfel_scene_destroy(scene);
+    /* A size that was never set: what would have to be zero behind the struct's end is not the caller's. */
+    const SurfelSceneInfo info = {.sType = SURFEL_STRUCTURE_TYPE_SCENE_INFO, .size = UINT32_MAX - 7};
+    IS(INVALID_ARGUMENT, surfel_scene_create(&info, &scene), "info: size 4294967288: expected its sizeof");
+}
+
 static void scenes(const char *splats_file, const char *garbage) {
     SurfelScene *scene;
     OK(surfel_scene_create(NULL, &scene));
@@ -123,6 +143,7 @@ int main(int argc, char **argv) {
     TRUE(surfel_version() == SURFEL_VERSION);
     TRUE(surfel_last_error()[0] == 0);
     structs();
+    pointers();
     scenes(argv[1], argv[2]);
     Engine *engine = engine_new();
     SurfelRequirements needs = {.sType = SURFEL_STRUCTURE_TYPE_REQUIREMENTS, .size = sizeof needs};

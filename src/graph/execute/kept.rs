@@ -81,7 +81,7 @@ impl Kept {
                 }
                 image => image,
             };
-            Ok(memory_need(device, &desc, usage))
+            memory_need(device, &desc, usage)
         };
         let plan = graph.compile(need)?;
         let transients = Transients::new(device, &plan, |place| rooms[place].room_bytes)?;

@@ -7,35 +7,42 @@ use super::{
     Physical,
 };
 use crate::{
-    error::Result,
+    error::{Error, Result},
     vk::{Buffer, BufferDesc, Device, Image, ImageDesc as PhysicalImageDesc, Memory},
 };
 
 /// What memory a transient needs on a device, for [`super::super::Graph::compile`].
-pub fn memory_need(device: &Device, desc: &ResourceDesc, usage: Usage) -> MemoryNeed {
+///
+/// # Errors
+/// [`crate::ErrorKind::Option`] for what the device does not have, and for the usage of another kind of resource.
+pub fn memory_need(device: &Device, desc: &ResourceDesc, usage: Usage) -> Result<MemoryNeed> {
+    const NAME: &str = "transient";
     let mut requirements = vk::MemoryRequirements2::default();
     match (desc, usage) {
         (ResourceDesc::Image(desc), Usage::Image(usage)) => {
-            let create = image_desc("", *desc, usage).placed_info(device);
+            let desc = image_desc(NAME, *desc, usage);
+            desc.check(device)?;
+            let create = desc.placed_info(device);
             let info = vk::DeviceImageMemoryRequirements::default().create_info(&create);
-            // SAFETY: the description is valid; maintenance4 is enabled.
+            // SAFETY: the device has such images; maintenance4 is enabled.
             unsafe { device.raw().get_device_image_memory_requirements(&info, &mut requirements) };
         }
         (ResourceDesc::Buffer(desc), Usage::Buffer(usage)) => {
+            BufferDesc { name: NAME, size: desc.size_bytes, usage }.check(device)?;
             let create = vk::BufferCreateInfo::default().size(desc.size_bytes).usage(usage);
             let info = vk::DeviceBufferMemoryRequirements::default().create_info(&create);
             // SAFETY: as above.
             unsafe { device.raw().get_device_buffer_memory_requirements(&info, &mut requirements) };
         }
-        // The graph gives an image's usage to images only; no memory type makes it refuse by name.
-        _ => {}
+        // The graph gives an image's usage to images only.
+        _ => return Err(Error::option(NAME, "an image for a buffer's usage, or a buffer for an image's")),
     }
     let needed = requirements.memory_requirements;
-    MemoryNeed {
+    Ok(MemoryNeed {
         size_bytes: needed.size,
         alignment_bytes: needed.alignment,
         type_bits: needed.memory_type_bits,
-    }
+    })
 }
 
 /// The transients of one plan.

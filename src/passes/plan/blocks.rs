@@ -13,7 +13,7 @@ use crate::passes::plan::{
 use crate::{
     arena::ArenaVec,
     math::size::{SizeBound, boxes_within_px},
-    prepare::{Block, Quad, ViewFromLocal},
+    prepare::{Block, LevelBounds, Quad, ViewFromLocal},
     shaders::config::BAND_ROW,
 };
 
@@ -51,7 +51,8 @@ struct Place<'a> {
     each: u32,
     /// The end of the last.
     end: u32,
-    /// What decides about their levels of detail, where there are any.
+    /// What decides about their levels of detail, where there are any; and, of single ones, the blocks.
+    of_detail: &'a [LevelBounds],
     blocks: &'a [Block],
 }
 
@@ -98,20 +99,23 @@ fn look_at(
             all_seen: is(whole),
             all_of_level: true,
         };
-        if let (Some(view), Some(levels)) =
-            (look.levels, place.blocks.get(i).and_then(|block| block.levels.as_ref()))
-        {
-            let of_levels = view.of(levels);
-            if of_levels == OfBlock::None {
+        if let (Some(view), Some(bounds)) = (look.levels, place.of_detail.get(i)) {
+            let drawn = view.of(bounds);
+            if drawn == OfBlock::None {
                 continue;
             }
-            run.count = view.most_drawn(levels, run.count);
-            run.box_px = run.box_px.min(view.largest_box_px(levels, look.bound.filter_px));
-            run.all_of_level = of_levels == OfBlock::All;
+            run.all_of_level = drawn == OfBlock::All;
+            run.box_px = run.box_px.min(view.largest_box_px(bounds, look.bound.filter_px));
+            let levels = place.blocks.get(i).filter(|_| !run.all_of_level);
+            if let Some(levels) = levels.and_then(|block| block.levels.as_ref()) {
+                run.count = view.most_drawn(levels, run.count);
+            }
         }
         runs.push(run);
     }
 }
 
+#[cfg(test)]
+mod of_detail;
 #[cfg(test)]
 mod tests;

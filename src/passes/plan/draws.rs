@@ -15,7 +15,7 @@ use crate::passes::{
         },
         frame_constants::{focal_in_view_px, frame_constants, near_in_view},
         in_view::{center_and_half, in_view, nearest_z, wholly_in_view},
-        levels::{LevelView, OfBlock},
+        levels::LevelView,
         range::DepthRange,
         seen::PotentiallyVisibleRun,
     },
@@ -178,13 +178,8 @@ pub fn draws<'a, 's>(
         let point_cap_px = limits.point_size_range[1];
         let levels =
             chunk.levels.and_then(|levels| LevelView::new(levels, chunk.transparent, camera, settings));
-        let of_level = |view: &LevelView| {
-            let blocks = chunk.blocks.iter().filter_map(|block| block.levels.as_deref());
-            let drawn = blocks.filter(|block| view.of(block) != OfBlock::None);
-            drawn.map(|block| view.largest_box_px(block, bound.filter_px)).fold(0.0, f64::max)
-        };
         let of_level =
-            levels.as_ref().filter(|view| view.part.stands_for_others()).map_or(f64::INFINITY, of_level);
+            levels.map_or(f64::INFINITY, |view| view.largest_drawn_px(&chunk.tree, bound.filter_px));
         let largest_box_px = largest_box_px(&bound).min(of_level);
         let mut constants = FrameConstants {
             splat_count: chunk.count,

@@ -1,9 +1,11 @@
 //! Levels of detail as a camera sees them: which blocks have something to draw, and what shaders are told (`glsl/inc/levels.glsl`).
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::{
-    prepare::{BallBounds, BlockLevels, ChunkLevels, LevelPart},
+    prepare::{BallBounds, BlockLevels, BlockTree, CHILDREN, ChunkLevels, LevelBounds, LevelPart},
     scene::{Camera, Settings},
     shaders::config::{LEVEL_WORDS, LEVELS_LEAVES, LEVELS_NODES, LEVELS_OF_CELLS},
 };
@@ -29,7 +31,7 @@ pub struct LevelView {
     stretched_px: f64,
 }
 
-/// What of a block is drawn.
+/// What of a block, or of several, is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OfBlock {
     /// Nothing.
@@ -98,11 +100,48 @@ impl LevelView {
         [x, y, z, share, self.near as f32, of_blended, weight_of_share, 0.0].map(f32::to_bits)
     }
 
-    /// What no box of a node of a block, or a cell's splat, exceeds that is drawn, in pixels, with this filter; infinite of the object's own splats.
-    pub fn largest_box_px(&self, block: &BlockLevels, filter_px: f64) -> f64 {
-        // Three pixels for rounding, as in `math/size.rs`.
-        let px = 2.0 * block.longest * self.stretched_px * self.blended_size;
-        if self.part.stands_for_others() { 1.01 * px.hypot(4.0 * filter_px) + 3.0 } else { f64::INFINITY }
+    /// What no box of a node of some blocks, or a cell's splat, exceeds that is drawn, in pixels, with this filter; infinite of the object's own splats.
+    pub fn largest_box_px(&self, bounds: &LevelBounds, filter_px: f64) -> f64 {
+        if !self.part.stands_for_others() {
+            return f64::INFINITY;
+        }
+        // Three pixels for rounding, as in `math/size.rs`. Not `hypot`, which is slow; what is too large for a square is infinite.
+        let (px, filter_px) = (2.0 * bounds.longest * self.stretched_px * self.blended_size, 4.0 * filter_px);
+        1.01 * (px * px + filter_px * filter_px).sqrt() + 3.0
+    }
+
+    /// What no box exceeds of the blocks below a tree of which something is drawn, as [`Self::largest_box_px`].
+    pub fn largest_drawn_px(&self, tree: &BlockTree, filter_px: f64) -> f64 {
+        match tree.of_detail.len().checked_sub(1) {
+            Some(top) if self.part.stands_for_others() => {
+                self.largest_below(tree, (top, 0..usize::MAX), filter_px, 0.0)
+            }
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// The same of some of a level, or `most` if that is more.
+    fn largest_below(
+        &self,
+        tree: &BlockTree,
+        (level, range): (usize, Range<usize>),
+        filter_px: f64,
+        mut most: f64,
+    ) -> f64 {
+        let all = &tree.of_detail[level];
+        let range = range.start..range.end.min(all.len());
+        for (place, bounds) in range.clone().zip(&all[range]) {
+            let px = self.largest_box_px(bounds, filter_px);
+            // Nothing below has a larger one.
+            if px > most && self.of(bounds) != OfBlock::None {
+                let below = |level| {
+                    let children = place * CHILDREN..(place + 1) * CHILDREN;
+                    self.largest_below(tree, (level, children), filter_px, most)
+                };
+                most = level.checked_sub(1).map_or(px, below);
+            }
+        }
+        most
     }
 
     /// Between which the largest spreads lie that are small, of balls within bounds, for this share of the focal length.
@@ -125,14 +164,11 @@ impl LevelView {
 
     /// How many of a block's splats, of which there are `count`, are drawn at most.
     pub fn most_drawn(&self, block: &BlockLevels, count: u32) -> u32 {
-        let distance = self.eye.distance(block.center);
-        let own = self.most(distance, &block.own, self.share_of_own());
-        block.most_between(
-            self.part.stands_for_others(),
-            own,
-            self.least(distance, &block.parent, self.share),
-            count,
-        )
+        let LevelBounds { center, own, parent, .. } = &block.bounds;
+        let distance = self.eye.distance(*center);
+        let own = self.most(distance, own, self.share_of_own());
+        let parent = self.least(distance, parent, self.share);
+        block.most_between(self.part.stands_for_others(), own, parent, count)
     }
 
     /// Whether none of some balls, around a place, is larger than τ.
@@ -140,10 +176,10 @@ impl LevelView {
         balls.spreads[1] <= self.least(self.eye.distance(*center), balls, self.share)
     }
 
-    /// What of a block is drawn.
-    pub fn of(&self, block: &BlockLevels) -> OfBlock {
-        let distance = self.eye.distance(block.center);
-        let (own, parent) = (&block.own, &block.parent);
+    /// What of some blocks is drawn.
+    pub fn of(&self, bounds: &LevelBounds) -> OfBlock {
+        let distance = self.eye.distance(bounds.center);
+        let (own, parent) = (&bounds.own, &bounds.parent);
         let [small_parent, large_parent] =
             [self.least(distance, parent, self.share), self.most(distance, parent, self.share)];
         let share = self.share_of_own();
@@ -205,7 +241,7 @@ mod tests {
                 found <= most && most <= count as u32,
                 "round {round}: {found} of {count}, {most} at most"
             );
-            assert!(found == 0 || view.of(&block) != OfBlock::None, "round {round}");
+            assert!(found == 0 || view.of(&block.bounds) != OfBlock::None, "round {round}");
             (all, bound, drawn) = (all + count as u32, bound + most, drawn + found);
         }
         println!("{drawn} drawn, {bound} at most, {all} in all");
@@ -231,7 +267,7 @@ mod tests {
             let parents = [(ball(1e3 * small), 8)];
             let block = BlockLevels::around(&own, &parents, 1.0);
             let all_small = own.iter().all(|own| f64::from(own.spread) <= small);
-            let told = view.of(&block);
+            let told = view.of(&block.bounds);
             assert!(all_small || told != OfBlock::All, "round {round}");
             whole += u32::from(told == OfBlock::All);
             between += u32::from(!all_small);

@@ -44,6 +44,8 @@ pub struct PotentiallyVisibleBlocks<'a> {
     sizes_px: &'a [f64],
     /// Of each row, and of the end, all sizes: how many splats are in blocks that begin before it, and in such that end before it.
     before: &'a [[u32; 2]],
+    /// The rows that any of them may touch; none where there is none.
+    rows: [u32; 2],
 }
 
 /// What is not told apart of boxes: within a whole pixel ([`crate::math::size::pixels_along`]) they are in as many tiles.
@@ -74,12 +76,14 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
         let mut before = arena.growing();
         before.resize(count * (rows as usize + 1), [0; 2]);
         let (mut last, mut size) = (f64::NAN, 0);
+        let mut touched = [u32::MAX, 0];
         for run in chunks.iter().copied().flatten() {
             let size_px = size_of(run);
             if size_px != last {
                 last = size_px;
                 size = place_of(&sizes_px, size_px).unwrap_or_else(|place| place);
             }
+            touched = [touched[0].min(run.rows.start), touched[1].max(run.rows.end)];
             // In the row behind the one where it begins or ends; then summed up.
             before[(run.rows.start as usize + 1) * count + size][0] += run.count;
             before[run.rows.end as usize * count + size][1] += run.count;
@@ -89,7 +93,8 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
             before[place][0] += begun;
             before[place][1] += ended;
         }
-        Self { chunks, sizes_px: sizes_px.into_bump_slice(), before: before.into_bump_slice() }
+        let (sizes_px, before) = (sizes_px.into_bump_slice(), before.into_bump_slice());
+        Self { chunks, sizes_px, before, rows: touched }
     }
 
     /// Of each row, and of the end, what all splats cost of blocks that begin before it, and of such that end before it, by what one costs with a box of so many pixels.
@@ -120,7 +125,37 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
 
     /// The rows that any of them may touch; `None` where there is none.
     pub fn rows(&self) -> Option<Range<u32>> {
-        let rows = || self.chunks.iter().copied().flatten().map(|run| &run.rows);
-        Some(rows().map(|rows| rows.start).min()?..rows().map(|rows| rows.end).max()?)
+        let [start, end] = self.rows;
+        (start < end).then_some(start..end)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_those_of_all_runs_wherever_the_first_and_the_last_are() {
+        let run = |rows: Range<u32>| PotentiallyVisibleRun {
+            first: 0,
+            blocks: 1,
+            count: 256,
+            box_px: 4.0,
+            rows,
+            all_seen: true,
+            all_of_level: true,
+        };
+        let arena = Arena::new();
+        let rows = |chunks: &[&[PotentiallyVisibleRun]]| {
+            PotentiallyVisibleBlocks::new(
+                &arena,
+                arena.list(chunks.iter().map(|runs| arena.list(runs.iter().cloned()))),
+                20,
+            )
+            .rows()
+        };
+        assert_eq!(rows(&[&[run(5..7), run(2..4)], &[run(9..12), run(6..8)]]), Some(2..12));
+        assert_eq!(rows(&[&[], &[run(3..4)]]), Some(3..4));
+        assert_eq!(rows(&[&[], &[]]), None);
     }
 }

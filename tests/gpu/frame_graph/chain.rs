@@ -94,7 +94,7 @@ pub fn chain<'a>(
             }
             Ok(())
         }));
-    let need = |_, desc: &_, usage| Ok(memory_need(&watched.device, desc, usage));
+    let need = |_, desc: &_, usage| memory_need(&watched.device, desc, usage);
     (graph.compile(need).unwrap(), graph, imports)
 }
 

@@ -1,9 +1,12 @@
 //! What a device does not have is refused before Vulkan is called: no safe function may call it with what it does not allow. The layer would say so.
 
 use ash::vk;
-use surfel::vk::{
-    Binding, Buffer, BufferDesc, DescriptorPool, Image, ImageDesc, MemoryUse, Occlusion, PipelineLayout,
-    PoolSizes, SetLayout,
+use surfel::{
+    graph::{self, ResourceDesc, Usage, execute::memory_need},
+    vk::{
+        Binding, Buffer, BufferDesc, DescriptorPool, Image, ImageDesc, MemoryUse, Occlusion, PipelineLayout,
+        PoolSizes, SetLayout, Staging,
+    },
 };
 
 use crate::common::watched::Watched;
@@ -46,6 +49,42 @@ fn what_a_device_does_not_have_is_refused_and_the_layer_is_silent() {
     assert!(!layout(&[&own], 132, compute));
     assert!(!layout(&[&own], 6, compute));
     assert!(!layout(&[&own], 4, vk::ShaderStageFlags::empty()));
+    // Each set alone is as large as a set can be.
+    use vk::DescriptorType as T;
+    for (kind, what) in [
+        (T::STORAGE_BUFFER, "storage buffers"),
+        (T::UNIFORM_BUFFER, "uniform buffers"),
+        (T::STORAGE_IMAGE, "storage images"),
+        (T::COMBINED_IMAGE_SAMPLER, "sampled images"),
+    ] {
+        let large = SetLayout::new(device, "large", &[binding(kind); 64]).unwrap();
+        let error = PipelineLayout::new(device, "layout", &[&large; 4], 0, compute).err();
+        assert!(
+            error.is_some_and(|error| error.to_string().contains(&format!("256 {what} in a stage"))),
+            "{what}"
+        );
+    }
+    let transient = |desc: ResourceDesc, usage: Usage| memory_need(device, &desc, usage).is_ok();
+    let image = |width, format| {
+        ResourceDesc::Image(graph::ImageDesc { extent: vk::Extent2D { width, height: 4 }, format })
+    };
+    let bytes = |size_bytes| ResourceDesc::Buffer(graph::BufferDesc { size_bytes, texels: F::UNDEFINED });
+    assert!(transient(image(4, F::R8G8B8A8_UNORM), Usage::Image(I::SAMPLED)));
+    assert!(!transient(image(0, F::R8G8B8A8_UNORM), Usage::Image(I::SAMPLED)));
+    assert!(!transient(image(4, F::R8G8B8A8_SRGB), Usage::Image(I::STORAGE)));
+    assert!(!transient(image(4, F::R8G8B8A8_UNORM), Usage::Buffer(B::STORAGE_BUFFER)));
+    assert!(transient(bytes(16), Usage::Buffer(B::STORAGE_BUFFER)));
+    assert!(!transient(bytes(0), Usage::Buffer(B::STORAGE_BUFFER)));
+    assert!(!transient(bytes(16), Usage::Buffer(B::empty())));
+    let mut staging = Staging::new(device, "staging", 64).unwrap();
+    let mut target = |device, usage| {
+        let target = Buffer::new(device, BufferDesc { name: "target", size: 16, usage }, MemoryUse::Device);
+        staging.push(&target.unwrap(), 0, &[0; 16]).is_ok()
+    };
+    assert!(target(device, B::TRANSFER_DST | B::STORAGE_BUFFER));
+    assert!(!target(device, B::STORAGE_BUFFER));
+    assert!(!target(&other.device, B::TRANSFER_DST));
+    drop(staging);
     assert!(DescriptorPool::new(device, "pool", PoolSizes::default()).is_err());
     assert!(Occlusion::new(device, "queries", 0).is_err());
     drop((own, foreign));

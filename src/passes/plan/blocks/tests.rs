@@ -30,10 +30,15 @@ fn direction(between: &mut impl FnMut(f64, f64) -> f64) -> DVec3 {
 }
 
 /// One block alone.
-fn look_at_one(number: u32, block: &Block, look: &BlockCullView<'_>) -> Option<PotentiallyVisibleRun> {
+pub(super) fn look_at_one(
+    number: u32,
+    block: &Block,
+    look: &BlockCullView<'_>,
+) -> Option<PotentiallyVisibleRun> {
     let arena = Arena::new();
     let (mut runs, blocks) = (arena.growing(), std::slice::from_ref(block));
-    let place = Place { first: number, each: 1, end: number + 1, blocks };
+    let of_detail: Vec<_> = block.levels.iter().map(|levels| levels.bounds).collect();
+    let place = Place { first: number, each: 1, end: number + 1, of_detail: &of_detail, blocks };
     look_at(&mut runs, place, &Quad::of(blocks), (look, &look.eye()));
     runs.pop()
 }

@@ -13,6 +13,9 @@ use crate::{
 /// Looks at bounds of a chunk, beside those on top.
 const MOST_LOOKS: usize = 256;
 
+/// The same of levels of detail: how many splats lists have room for is then known from blocks alone.
+const MOST_LOOKS_AT_LEVELS: usize = 4096;
+
 /// Runs in place of which there are to be their parts, for what that tells; where memory for lists is short, so that it matters how many splats there are, and then in which rows.
 #[derive(Clone, Copy)]
 pub(crate) enum Closer<'a> {
@@ -56,7 +59,7 @@ impl Closer<'_> {
 /// large as it is.
 ///
 /// Runs of blocks are looked at from the top of their tree: of one that is seen as a whole nothing below is. So what is looked at by itself is at silhouettes, at borders of the
-/// image, and near; where that is more than so many looks, the rest is left to the device.
+/// image, near, and where one level of detail follows another; where that is more than so many looks, the rest is left to the device.
 pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
     arena: &'m Arena,
     chunk: &Chunk,
@@ -68,13 +71,15 @@ pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
     if let (true, Some(first)) = (chunk.is_dynamic(), blocks.first()) {
         let all = Quad::of(&[Block { count: chunk.count, levels: None, ..*first }]);
         let end = blocks.len() as u32;
-        look_at(&mut top, Place { first: 0, each: end, end, blocks: &[] }, &all, (look, &look.eye()));
+        let place = Place { first: 0, each: end, end, of_detail: &[], blocks: &[] };
+        look_at(&mut top, place, &all, (look, &look.eye()));
         return top.into_bump_slice();
     }
     let Some(level) = chunk.tree.levels.len().checked_sub(1) else { return &[] };
     top.reserve(chunk.tree.levels[level].len() * CHILDREN);
     look_at_quads(&mut top, chunk, (level, 0..usize::MAX), (look, &look.eye()));
-    looked_into(arena, chunk, look, top, MOST_LOOKS, |run| !run.all_seen)
+    let most = if look.levels.is_some() { MOST_LOOKS_AT_LEVELS } else { MOST_LOOKS };
+    looked_into(arena, chunk, look, top, most, |run| !run.all_seen || !run.all_of_level)
 }
 
 /// These runs, and in place of some of them their parts.
@@ -102,14 +107,16 @@ fn look_at_quads(
     (level, range): (usize, Range<usize>),
     look: (&BlockCullView<'_>, &Eye),
 ) {
-    let quads = &chunk.tree.levels[level];
+    let (quads, of_detail) = (&chunk.tree.levels[level], chunk.tree.of_detail.get(level));
     let each = CHILDREN.pow(level as u32);
     let end = chunk.blocks.len() as u32;
     let range = range.start..range.end.min(quads.len());
     for number in range {
         let first = number * CHILDREN * each;
         let blocks = if level == 0 { &chunk.blocks[first..] } else { &[] };
-        look_at(runs, Place { first: first as u32, each: each as u32, end, blocks }, &quads[number], look);
+        let of_detail = of_detail.map_or(&[][..], |of_detail| &of_detail[number * CHILDREN..]);
+        let place = Place { first: first as u32, each: each as u32, end, of_detail, blocks };
+        look_at(runs, place, &quads[number], look);
     }
 }
 

@@ -73,5 +73,7 @@ fn recording_alone_costs_so_much() {
     drop(renderer);
     // SAFETY: nothing was submitted.
     unsafe { device.epoch_done(device.end_epoch()) };
+    // The engine's device goes last.
+    drop(device);
     beside.end();
 }
