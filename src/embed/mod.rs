@@ -38,3 +38,8 @@ pub use frame::{DepthImage, ViewFrame};
 pub use onto::HostImage;
 pub use over::{NO_ID, Rendering};
 pub use view::View;
+
+/// The guide, whose code is to be pasted, compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/embedding.md")]
+struct Guide;
