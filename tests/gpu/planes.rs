@@ -126,28 +126,24 @@ fn every_hard_scene_is_cut_as_the_oracle_is() {
 #[test]
 fn cuts_cover_pixels_in_part_as_the_oracles_do() {
     let mut headless = shared();
-    for filter in [Filter::Adjust, Filter::Ewa] {
-        for invocations in [TileInvocations::Pixel, TileInvocations::Column] {
-            for cut_by in &cuts() {
-                for hard in [scenes::sphere_of_disks(), scenes::clipped()] {
-                    let hard = with(&cut(&hard, cut_by), |settings| {
-                        (settings.edges, settings.rasterizer) = (Edges::Coverage, Rasterizer::Compute);
-                        (settings.filter, settings.tile_invocations) = (filter, invocations);
-                        settings.background = None;
-                    });
-                    let frame = render_as(&mut headless, &hard, PICTURE);
-                    assert!(!passes(&frame).contains(&"accumulate"));
-                    let errors = compare_light(&frame, &oracle_of(&hard));
-                    println!("{}", errors.row(&format!("{}, {}", hard.name, cut_by.0)));
-                    let good = errors.worst <= tolerance::LIGHT && errors.not_finite == 0;
-                    assert!(
-                        good && errors.seen >= 300,
-                        "{}, {}, {filter:?}: {errors:?}",
-                        hard.name,
-                        cut_by.0
-                    );
-                }
-            }
+    let ways = [Filter::Adjust, Filter::Ewa]
+        .into_iter()
+        .flat_map(|filter| [TileInvocations::Pixel, TileInvocations::Column].map(|by| (filter, by)));
+    let both = [scenes::sphere_of_disks(), scenes::clipped()];
+    for (number, (filter, invocations)) in ways.enumerate() {
+        // Each cut of each scene, with each filter and each form of tiles.
+        for (turn, cut_by) in cuts().iter().enumerate() {
+            let hard = with(&cut(&both[(number + number / 2 + turn) % 2], cut_by), |settings| {
+                (settings.edges, settings.rasterizer) = (Edges::Coverage, Rasterizer::Compute);
+                (settings.filter, settings.tile_invocations) = (filter, invocations);
+                settings.background = None;
+            });
+            let frame = render_as(&mut headless, &hard, PICTURE);
+            assert!(!passes(&frame).contains(&"accumulate"));
+            let errors = compare_light(&frame, &oracle_of(&hard));
+            println!("{}", errors.row(&format!("{}, {}", hard.name, cut_by.0)));
+            let good = errors.worst <= tolerance::LIGHT && errors.not_finite == 0;
+            assert!(good && errors.seen >= 300, "{}, {}, {filter:?}: {errors:?}", hard.name, cut_by.0);
         }
     }
 }
@@ -172,21 +168,23 @@ fn layers_polygons_samples_and_parallel_rays_are_cut_too() {
         parallel_camera(&hybrid),
         parallel_camera(&spheres),
     ];
-    for hard in &all {
-        for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective, Rasterizer::Triangle] {
-            for cut_by in &cuts() {
-                let hard = with(&cut(hard, cut_by), |settings| {
-                    settings.rasterizer = rasterizer;
-                    settings.background = None;
-                });
-                let (frame, oracle) = (render_as(&mut headless, &hard, PICTURE), oracle_of(&hard));
-                let [mean, beyond] = errors(&frame.linear, oracle.pixels.iter().map(|pixel| pixel.color));
-                let name = format!("{}, {}, {rasterizer:?}", hard.name, cut_by.0);
-                println!("{name}: mean {mean:.1e}, {:.2}% of pixels beyond 1/255", 100.0 * beyond);
-                assert!(mean < 2e-4 && beyond < 8e-3, "{name}: {mean:e}, {beyond}");
-                let seen = frame.linear.iter().filter(|pixel| pixel[3] > 0.0).count();
-                assert!(seen > 100, "{name}: {seen}");
-            }
+    let cuts = cuts();
+    for (number, hard) in all.iter().enumerate() {
+        // Each scene by each method and with each cut; each cut by each method.
+        let methods = [Rasterizer::Compute, Rasterizer::Perspective, Rasterizer::Triangle];
+        for (turn, rasterizer) in methods.into_iter().enumerate() {
+            let cut_by = &cuts[(number + turn) % cuts.len()];
+            let hard = with(&cut(hard, cut_by), |settings| {
+                settings.rasterizer = rasterizer;
+                settings.background = None;
+            });
+            let (frame, oracle) = (render_as(&mut headless, &hard, PICTURE), oracle_of(&hard));
+            let [mean, beyond] = errors(&frame.linear, oracle.pixels.iter().map(|pixel| pixel.color));
+            let name = format!("{}, {}, {rasterizer:?}", hard.name, cut_by.0);
+            println!("{name}: mean {mean:.1e}, {:.2}% of pixels beyond 1/255", 100.0 * beyond);
+            assert!(mean < 2e-4 && beyond < 8e-3, "{name}: {mean:e}, {beyond}");
+            let seen = frame.linear.iter().filter(|pixel| pixel[3] > 0.0).count();
+            assert!(seen > 100, "{name}: {seen}");
         }
     }
 }
