@@ -31,16 +31,16 @@ const SAMPLES: usize = 200;
 
 /// The normals at all points, on one side of each surface, if those of 12 neighbors are too noisy and coarser ones are not.
 pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
-    if thickness::<NEIGHBORS>(tree, tree) <= FLAT {
+    if thickness(tree, tree, NEIGHBORS) <= FLAT {
         return None;
     }
-    let (mut least, mut flattest) = (thickness::<MOST_NEIGHBORS>(tree, tree), None);
+    let (mut least, mut flattest) = (thickness(tree, tree, MOST_NEIGHBORS), None);
     for stride in STRIDES {
         if least <= FLAT_ENOUGH || tree.points().len() / stride <= 4 * MOST_NEIGHBORS {
             break;
         }
         let coarse = every(tree, stride);
-        let found = thickness::<MOST_NEIGHBORS>(tree, &coarse);
+        let found = thickness(tree, &coarse, MOST_NEIGHBORS);
         if found < least {
             (least, flattest) = (found, Some(coarse));
         }
@@ -49,17 +49,17 @@ pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
     (least <= THICKEST).then(|| patches::normals(tree, coarse, MIXED.max(THICKER * least)))
 }
 
-/// The median thickness of planes through the `K` points of `among` that are nearest to a point; 0 of too few points to tell.
-fn thickness<const K: usize>(tree: &Tree, among: &Tree) -> f64 {
+/// The median thickness of planes through so many points of `among` that are nearest to a point; 0 of too few points to tell.
+fn thickness(tree: &Tree, among: &Tree, neighbors: usize) -> f64 {
     let total = tree.points().len();
-    if among.points().len() <= 4 * K {
+    if among.points().len() <= 4 * neighbors {
         return 0.0;
     }
     let mut near = Many::default();
     let of = |place: usize| {
         let place = tree.points()[place].position;
-        let plane = match K {
-            NEIGHBORS => Plane::fit(near.nearest(among, place, K), |_| true),
+        let plane = match neighbors {
+            NEIGHBORS => Plane::fit(near.nearest(among, place, NEIGHBORS), |_| true),
             _ => plane_or_sheet(among, place, MIXED, &mut near),
         };
         plane.thickness

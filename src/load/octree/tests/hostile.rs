@@ -1,5 +1,3 @@
-use std::time::{Duration, Instant};
-
 use super::*;
 
 /// Whatever bytes are there: an error in one line, or points, without taking long.
@@ -22,12 +20,7 @@ fn hostile_bytes_are_refused_or_read() {
     };
     let mut random = SplitMix(11);
     let mut below = |most: usize| (random.bits() % most as u64) as usize;
-    let begin = Instant::now();
     for case in 0..40_000 {
-        // A sanitizer makes each take many times as long.
-        if case >= 4000 && begin.elapsed() > Duration::from_secs(120) {
-            break;
-        }
         let mut copc = copc.clone();
         let mut files = potree.clone();
         for _ in 0..=below(3) {
