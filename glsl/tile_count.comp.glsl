@@ -1,13 +1,10 @@
-// How many records of each segment fall into each bin: the invocation's own counts.
+// How many records of each segment fall into each bin.
+// Permutations: column pixel
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "tile/constants.glsl"
 #include "tile/walk.glsl"
-
-void visit(uint record, uint bin)
-{
-    counts[place_of_count(gl_GlobalInvocationID.x, bin)] += 1;
-}
 
 void main()
 {

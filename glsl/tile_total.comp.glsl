@@ -1,23 +1,30 @@
-// The counts of each bin, summed over the segments: each count becomes the number of records in segments before its own.
+// The counts of each bin, summed over the pieces of segments: each count becomes the number of records in pieces before its own.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #include "tile/constants.glsl"
 
-layout(local_size_x = BIN_GROUP_SIZE) in;
+layout(local_size_x = TOTAL_GROUP_SIZE) in;
 layout(set = 0, binding = BIND_COUNTS, std430) buffer Counts { uint counts[]; };
 layout(set = 0, binding = BIND_STARTS, std430) writeonly buffer Starts { uint starts[]; };
 
 void main()
 {
-    uint bin = GROUP_NUMBER * BIN_GROUP_SIZE + gl_LocalInvocationID.x;
+    uint bin = GROUP_NUMBER * TOTAL_GROUP_SIZE + gl_LocalInvocationID.x;
     if (bin >= push.bin_count) {
         return;
     }
     uint before = 0;
-    for (uint segment = 0; segment < push.segments; segment++) {
-        uint place = place_of_count(segment, bin);
-        uint own = counts[place];
-        counts[place] = before;
-        before += own;
+    // Those of a group lie beside each other, and are on their way together.
+    for (uint piece = 0; piece < push.segments * push.pieces; piece += BIN_GROUP_SIZE) {
+        uint first = place_of_count(piece, bin);
+        uint own[BIN_GROUP_SIZE];
+        [[unroll]] for (uint i = 0; i < BIN_GROUP_SIZE; i++) {
+            own[i] = counts[first + i];
+        }
+        [[unroll]] for (uint i = 0; i < BIN_GROUP_SIZE; i++) {
+            counts[first + i] = before;
+            before += own[i];
+        }
     }
     starts[bin] = before;
 }

@@ -6,10 +6,13 @@ struct Surface {
     vec3 normal;  // unit, view space
 };
 
-// Normals that cancel give (0, 0, -1), the one toward the viewer. The smallest weight is 2^-60, so the square of a sum
-// that did not cancel is far above the smallest f32.
+// Normals that cancel give (0, 0, -1), the one toward the viewer. The smallest weight is 2^-60, and where something is cut off 1e-18 of that (tile/pixel.glsl):
+// the square of the sum would be below the smallest f32, or one of those next to it, which GPUs take for 0. So small sums are made larger first, which
+// rounds nothing.
 vec3 normal_of_sum(vec3 sum)
 {
+    float largest = max(max(abs(sum.x), abs(sum.y)), abs(sum.z));
+    sum *= largest < 9.094947e-13 ? 1.1529215e18 : 1.0; // 2^-40, 2^60
     float length2 = dot(sum, sum);
     return length2 > 0.0 ? sum * inversesqrt(length2) : vec3(0.0, 0.0, -1.0);
 }

@@ -3,8 +3,8 @@
 //
 // Each splat is projected once (tile_project.comp.glsl), to a record (tile/splat.glsl) and the rect of tiles that its box touches
 // (tile/rect.glsl). Records are dealt out to segments, SEGMENT_BLOCK at a time, so that all segments have as much to do wherever in
-// space the records are; one invocation walks over one segment, in order (tile/walk.glsl), first to count what falls into each bin,
-// then to list it. So lists need no atomics and are the same in every run: by segment, and in each in the order of the records.
+// space the records are; a walk goes over a segment, or a piece of it, in order (tile/walk.glsl), first to count what falls into each bin,
+// then to list it. So lists are the same in every run: by segment, and in each in the order of the records.
 //
 // Bins: one a tile; behind them one a chunk, of splats that are drawn by the graphics pipeline (large, or not regular). PARTED: two a tile,
 // the second one of splats that clip curves cut (inc/clip.glsl), so that others need not look for curves.
@@ -22,7 +22,8 @@ struct TileConstants {
     uint record_count;   // at most; of listed splats, as many as are visible
     uint segments;
     uint segment_length; // records, a multiple of SEGMENT_BLOCK
-    uint round_first;    // where in its segment a walk begins
+    uint pieces;         // of a segment, each of which one walk goes over
+    uint round_first;    // where in its piece a walk begins
     uint round_length;   // records of one walk
     uint part;           // of an overflow tile, or WHOLE_TILES; of layers
     float focal_px;
@@ -50,9 +51,9 @@ uint place_of_tile(bool clipped, uint number)
     return clipped ? push.tile_count - 1 - number : number;
 }
 
-// Counts of the segments of one workgroup lie beside each other: they walk over the same region at a time, and bins of theirs
+// Counts of BIN_GROUP_SIZE walks lie beside each other: they go over the same region at a time, and bins of theirs
 // in columns apart would fall on the same lines of a cache.
-uint place_of_count(uint segment, uint bin)
+uint place_of_count(uint walk, uint bin)
 {
-    return (segment / BIN_GROUP_SIZE * push.bin_count + bin) * BIN_GROUP_SIZE + segment % BIN_GROUP_SIZE;
+    return (walk / BIN_GROUP_SIZE * push.bin_count + bin) * BIN_GROUP_SIZE + walk % BIN_GROUP_SIZE;
 }

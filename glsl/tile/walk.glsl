@@ -1,12 +1,13 @@
-// A walk over the records of a segment, in order: `visit(record, bin)` for each bin that a record falls into. One loop, whose
-// steps are a record or a further tile, so that invocations with large splats don't hold up the others.
+// A walk over the records of a segment, in order, which counts for each bin how many fall into it; LISTS: and hands those to `list`, each with how many
+// come before it. COLUMN, for CPUs: an invocation walks alone over a segment. Else, for GPUs, a workgroup together over a piece of one.
 
 #include "tile/rect.glsl"
 
-void visit(uint record, uint bin);
+#if defined(LISTS)
+void list(uint record, uint bin, uint before);
+#endif
 
-layout(local_size_x = BIN_GROUP_SIZE) in;
-layout(set = 0, binding = BIND_COUNTS, std430) buffer Counts { uint counts[]; };
+layout(set = 0, binding = BIND_COUNTS, std430) coherent buffer Counts { uint counts[]; };
 
 layout(constant_id = SPEC_TEXELS) const bool TEXELS = false; // CPU drivers read these without a loop over lanes
 layout(set = 0, binding = BIND_RECTS, std430) readonly buffer Rects { uint rects[]; };
@@ -46,61 +47,14 @@ uint own_records(uint segment, uint record_count)
     return segment < blocks ? ((blocks - segment - 1) / push.segments + 1) * SEGMENT_BLOCK : 0;
 }
 
-void walk()
+// The record at a place of a segment.
+uint record_at(uint segment, uint place)
 {
-    uint segment = gl_GlobalInvocationID.x;
-    if (segment >= push.segments) {
-        return;
-    }
-    uint next = push.round_first;
-    uint record_count = LISTED ? visible_starts[visible_starts.length() - 1] : push.record_count;
-    uint end = min(next + push.round_length, own_records(segment, record_count));
-    uint record = 0;
-    // Of the record, what is not visited yet: tiles of a row, and rows behind it.
-    uint in_row = 0;
-    uint rows = 0;
-    uint width = 1;
-    uint tile = 0;
-    uint row_tile = 0; // the first of the row
-    uint outside = 0;
-    uvec2 size = uvec2(0);
-    uvec2 cells = uvec2(0);
-    while (next < end || in_row > 0) {
-        if (in_row == 0) {
-            record = (next / SEGMENT_BLOCK * push.segments + segment) * SEGMENT_BLOCK + next % SEGMENT_BLOCK;
-            next++;
-            uint rect = record < record_count ? rect_of(record) : RECT_NONE;
-            if (rect >= RECT_CHUNK) {
-                if (rect != RECT_NONE) {
-                    visit(record, FIRST_CHUNK_BIN + chunk_of(rect));
-                }
-            } else {
-                uvec2 first = first_of(rect);
-                uvec2 more = more_of(rect);
-                outside = outside_of(rect);
-                size = more;
-                cells = cells_of(record);
-                width = more.x + 1;
-                rows = more.y;
-                row_tile = first.x + first.y * push.tiles_x - push.first_tile;
-                tile = row_tile + (outside & 1);
-                in_row = width - bitCount(outside & 3);
-            }
-        }
-        if (in_row > 0) {
-            uint cell = PARTED ? cell_of(uvec2(tile - row_tile, size.y - rows), cell_shift(size)) : 0;
-            if (!PARTED || (cells.x >> cell & 1) != 0) {
-                visit(record, TILE_BINS * tile + (PARTED ? cells.y >> cell & 1 : 0));
-            }
-            tile++;
-            in_row--;
-            if (in_row == 0 && rows > 0) {
-                rows--;
-                row_tile += push.tiles_x;
-                uint out_of_row = rows == 0 ? outside >> 2 : 0;
-                tile = row_tile + (out_of_row & 1);
-                in_row = width - bitCount(out_of_row);
-            }
-        }
-    }
+    return (place / SEGMENT_BLOCK * push.segments + segment) * SEGMENT_BLOCK + place % SEGMENT_BLOCK;
 }
+
+#if defined(COLUMN)
+#include "tile/walk_alone.glsl"
+#else
+#include "tile/walk_together.glsl"
+#endif

@@ -160,7 +160,9 @@ pub struct TileConstants {
     pub segments: u32,
     /// Records of a segment.
     pub segment_length: u32,
-    /// Where in its segment a walk begins.
+    /// Pieces of a segment, each of which one walk goes over.
+    pub pieces: u32,
+    /// Where in its piece a walk begins.
     pub round_first: u32,
     /// Records of one walk.
     pub round_length: u32,

@@ -75,6 +75,11 @@ impl Invocations {
         matches!(self, Self::Columns | Self::ShortColumns)
     }
 
+    /// Whether those of a workgroup go over splats together to list them by tile, or each by itself.
+    pub fn walk_together(self) -> bool {
+        self == Self::Pixels
+    }
+
     /// The shader of a pass: by columns, or by pixels.
     pub(crate) fn shader(self, [column, pixel]: [&'static Shader; 2]) -> &'static Shader {
         if self == Self::Pixels { pixel } else { column }

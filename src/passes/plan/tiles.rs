@@ -26,6 +26,11 @@ const MOST_ITERATIONS: u32 = 60_000;
 /// Segments: enough to keep a CPU's cores busy with vectors of 8, and few enough that their counts of all tiles stay small.
 const SEGMENTS: u32 = 32;
 
+/// Pieces of a segment at most, where workgroups walk: as many workgroups keep a GPU busy. Their counts take so many bytes at most, unless
+/// those of segments take more.
+const MOST_PIECES: u64 = 4;
+const MOST_BYTES_OF_PIECES: u64 = 64 << 20;
+
 /// Blocks of a segment at least: of few splats, most of the work is to add up counts that are 0.
 const LEAST_BLOCKS: u32 = 4;
 
@@ -49,6 +54,19 @@ fn tiles_of(box_px: f64, invocations: Invocations) -> u64 {
         ((pixels_along(box_px) + side - 2.0) / side).floor() + 1.0
     };
     (along(TILE_WIDTH) * along(invocations.tile_height())) as u64 // of what has no bound, the largest number
+}
+
+/// Records of one walk of which each has so many tiles. Where a workgroup walks, an invocation has a tile of each of its 64 records' in turn, and 84 iterations for it.
+fn round_length(invocations: Invocations, most_tiles: u32) -> u32 {
+    let iterations = if invocations.walk_together() { MOST_ITERATIONS / 4 * 3 } else { MOST_ITERATIONS };
+    iterations / most_tiles.max(1)
+}
+
+/// Pieces of a segment, for so many bins: of any number of segments, so that all bands of an image have the same.
+fn pieces_of(invocations: Invocations, bins: u64, most_bytes: u64) -> u32 {
+    let most_bytes = MOST_BYTES_OF_PIECES.min(most_bytes);
+    let most = if invocations.walk_together() { MOST_PIECES } else { 1 };
+    (most_bytes / 4 / u64::from(SEGMENTS) / bins).clamp(1, most) as u32
 }
 
 /// This number or one that is less by a third at most. A pipeline is told it: were it any, a camera that moves would have pipelines without
@@ -78,8 +96,10 @@ pub struct TilePlan {
     pub record_room: u64,
     /// Chunks.
     pub chunk_count: u32,
-    /// Segments of records, one invocation each.
+    /// Segments of records.
     pub segments: u32,
+    /// Pieces of each, which one walk goes over.
+    pub pieces: u32,
     /// Records of one.
     pub segment_length: u32,
     /// Records that are walked over in one dispatch.
@@ -131,9 +151,19 @@ impl TilePlan {
         bytes_of_records(1) + of_clips + 4 * tiles_of(box_px, self.invocations).min(self.most_tiles.into())
     }
 
-    /// Bytes of what each segment counts in bins.
+    /// Bytes of what each walk counts in bins.
     pub(crate) fn count_bytes(&self) -> u64 {
-        u64::from(self.segments) * u64::from(self.bin_count()) * 4
+        u64::from(self.walks()) * u64::from(self.bin_count()) * 4
+    }
+
+    /// The same as a band is planned, of which there are several to save memory.
+    pub(crate) fn in_one_piece(self) -> Self {
+        Self { pieces: 1, ..self }
+    }
+
+    /// Walks that go over all records.
+    pub(crate) fn walks(&self) -> u32 {
+        self.segments * self.pieces
     }
 
     /// Bytes of the clip curves of records.
@@ -203,8 +233,9 @@ impl TilePlan {
             record_room: records,
             chunk_count: chunks as u32,
             segments,
+            pieces: pieces_of(invocations, bins, range),
             segment_length,
-            round_length: (MOST_ITERATIONS / most_tiles).min(segment_length),
+            round_length: round_length(invocations, most_tiles).min(segment_length),
             place_bits,
             most_tiles,
             entry_room,

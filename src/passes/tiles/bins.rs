@@ -1,5 +1,4 @@
-//! Lists of splats by tile, in a fixed order: counted, placed by prefix sums, filled; no atomics, so that they are the same
-//! in every run.
+//! Lists of splats by tile: counted, placed by prefix sums, filled, in an order that is the same in every run.
 
 use ash::vk;
 
@@ -26,7 +25,7 @@ use crate::{
 const WHY: &str = "lists of splats by tile: counted, placed by prefix sums, filled";
 
 /// The pipeline of what walks over projected splats; `listed`: they are those of a list.
-fn walk_key(shader: &'static Shader, plan: &TilePlan, listed: bool) -> ComputeKey {
+fn walk_key(shaders: [&'static Shader; 2], plan: &TilePlan, listed: bool) -> ComputeKey {
     let constants = [
         (SPEC_PLACE_BITS, plan.place_bits),
         (SPEC_LISTED, u32::from(listed)),
@@ -34,7 +33,7 @@ fn walk_key(shader: &'static Shader, plan: &TilePlan, listed: bool) -> ComputeKe
         (SPEC_MAY_BE_LARGE, u32::from(plan.may_be_large)),
         (SPEC_PARTED, u32::from(plan.clips)),
     ];
-    key(shader, constants.into())
+    key(plan.invocations.shader(shaders), constants.into())
 }
 
 /// Declares the passes that project splats and list them by tile. `kind`, in front of the names, tells several such lists of a
@@ -70,10 +69,10 @@ pub(crate) fn list<'a>(
         update,
         Start::Load,
     );
-    let count = walk_key(&shaders::TILE_COUNT_COMP, plan, visible.is_some());
-    finish(pass, inputs, (plan, count), walk)?;
+    let count = walk_key([&shaders::TILE_COUNT_COLUMN_COMP, &shaders::TILE_COUNT_PIXEL_COMP], plan, visible.is_some());
+    finish(pass, inputs, (plan, count), |pass| walk(pass, plan))?;
 
-    let groups = plan.bin_count().div_ceil(BIN_GROUP_SIZE);
+    let groups = plan.bin_count().div_ceil(TOTAL_GROUP_SIZE);
     let pass = Pass::new(graph, inputs.source, name("total"), WHY)
         .write(at(BIND_COUNTS), &mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
         .write(at(BIND_STARTS), &mut tiles.starts, write, Start::Discard);
@@ -100,19 +99,22 @@ pub(crate) fn list<'a>(
         .read(at(BIND_STARTS), &tiles.starts, read)
         .write(at(BIND_COUNTS), &mut tiles.counts, update, Start::Load)
         .write(at(BIND_ENTRIES), &mut tiles.entries, write, Start::Discard);
-    let fill = walk_key(&shaders::TILE_FILL_COMP, plan, visible.is_some());
-    finish(pass, inputs, (plan, fill), walk)?;
+    let fill = walk_key([&shaders::TILE_FILL_COLUMN_COMP, &shaders::TILE_FILL_PIXEL_COMP], plan, visible.is_some());
+    finish(pass, inputs, (plan, fill), |pass| walk(pass, plan))?;
     Ok(tiles)
 }
 
-/// Records the dispatches of a walk: each takes no more projected splats of a segment than a shader's loops have iterations for.
-fn walk(pass: &TileDispatch<'_, '_>) -> Result<()> {
-    let TileConstants { segments, segment_length, round_length, .. } = pass.constants;
-    for round_first in (0..segment_length).step_by(round_length as usize) {
+/// Records the dispatches of walks: each takes no more projected splats than a shader's loops have iterations for.
+fn walk(pass: &TileDispatch<'_, '_>, plan: &TilePlan) -> Result<()> {
+    let groups = match plan.invocations.walk_together() {
+        true => plan.walks(),
+        false => plan.walks().div_ceil(BIN_GROUP_SIZE),
+    };
+    for round_first in (0..plan.segment_length.div_ceil(plan.pieces)).step_by(plan.round_length as usize) {
         if round_first > 0 {
             pass.wait();
         }
-        pass.groups(TileConstants { round_first, ..pass.constants }, segments.div_ceil(BIN_GROUP_SIZE))?;
+        pass.groups(TileConstants { round_first, ..pass.constants }, groups)?;
     }
     Ok(())
 }

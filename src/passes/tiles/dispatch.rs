@@ -150,6 +150,7 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
         record_count: plan.record_count,
         segments: plan.segments,
         segment_length: plan.segment_length,
+        pieces: plan.pieces,
         round_first: 0,
         round_length: plan.round_length,
         part: WHOLE_TILES,

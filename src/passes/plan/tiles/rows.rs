@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use ash::vk;
 
-use crate::passes::plan::tiles::{MOST_ITERATIONS, TilePlan};
+use crate::passes::plan::tiles::{TilePlan, round_length};
 use crate::{
     passes::plan::{
         draws::Draw,
@@ -70,7 +70,7 @@ impl TilePlan {
     ) -> Option<Self> {
         let size_px = settings.size_px;
         let plan = Self::of_boxes(draws.len(), seen.boxes(&rows), size_px, limits, self.invocations)?;
-        plan.within(rows).when_drawn(draws, self.hidden, limits)
+        plan.within(rows).in_one_piece().when_drawn(draws, self.hidden, limits)
     }
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
@@ -116,7 +116,7 @@ impl TilePlan {
         Self {
             record_room: largest(|band| band.record_room),
             most_tiles,
-            round_length: (MOST_ITERATIONS / most_tiles.max(1)).min(self.segment_length),
+            round_length: round_length(self.invocations, most_tiles).min(self.segment_length),
             segments: largest(|band| band.segments.into()) as u32,
             entry_room: largest(|band| band.entry_room),
             may_be_large: bands.iter().any(|band| band.may_be_large),
