@@ -22,6 +22,7 @@ use crate::error::{Error, Result};
 /// The lists that come with the program, each with its name.
 pub const BUILT_IN: &[(&str, &str)] = &[
     ("lavapipe.txt", include_str!("known_lists/lavapipe.txt")),
+    ("nvidia.txt", include_str!("known_lists/nvidia.txt")),
     ("swiftshader.txt", include_str!("known_lists/swiftshader.txt")),
 ];
 

@@ -186,7 +186,9 @@ pub fn with_points_up_to<T>(headless: &mut Headless, cap_px: f32, f: impl FnOnce
 /// Whether two frames are the same bit by bit.
 pub fn assert_same_bits(a: &Frame, b: &Frame, what: &str) {
     let different = compare::different_values(a, b);
-    assert_eq!(different, 0, "{what}: {different} values differ");
+    let pairs = a.linear.iter().flatten().zip(b.linear.iter().flatten());
+    let most = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    assert_eq!(different, 0, "{what}: {different} values differ, of the picture by {most:e} at most");
 }
 
 /// Runs a test of this program once more, in a process of its own with these variables, and fails as it does; `false` in that

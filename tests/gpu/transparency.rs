@@ -148,6 +148,10 @@ fn layers_that_are_not_there_draw_nothing() {
     };
     let most = oracle_of(&hard).pixels.iter().map(|pixel| pixel.layers).max().unwrap();
     assert!((1..8).contains(&most), "{most}");
+    let drawn: Vec<_> = (1..=12)
+        .map(|layer| ["accumulate", "compose"].map(|pass| counts(&format!("{pass} of layer {layer}"))))
+        .collect();
+    println!("vertices and fragments of each layer: {drawn:?}");
     // One layer more finds that there is none, the others draw no vertex.
     for layer in 1..=12 {
         let drawn = layer <= most + 1;

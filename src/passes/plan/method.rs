@@ -187,12 +187,11 @@ fn wants_tiles(few: bool, settings: &Settings, limits: &Limits) -> std::result::
         Rasterizer::Auto if settings.covers_in_part() => {
             can_do_tiles(settings, limits).map(|()| "auto: they cover pixels in part where surfaces end")
         }
-        Rasterizer::Auto if !limits.is_cpu => Err("auto: not measured on this kind of device"),
-        Rasterizer::Auto if !Invocations::has_columns(limits) => {
+        Rasterizer::Auto if limits.is_cpu && !Invocations::has_columns(limits) => {
             Err("auto: on a CPU tiles gain by shuffles among 8 invocations, which the device lacks")
         }
         Rasterizer::Auto if few => Err("auto: so few that tiles gain little"),
-        Rasterizer::Auto => can_do_tiles(settings, limits).map(|()| "auto: on a CPU faster than points"),
+        Rasterizer::Auto => can_do_tiles(settings, limits).map(|()| "auto: faster than points"),
         _ => Err("another rasterizer was asked for"),
     }
 }
@@ -232,11 +231,11 @@ mod tests {
     use crate::scene::{Edges, Filter, KernelEval};
 
     #[test]
-    fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {
+    fn auto_takes_tiles_where_they_are_faster_and_only_for_what_they_can_draw() {
         let cpu = Limits { is_cpu: true, shuffles: true, max_texels: u32::MAX, ..Limits::plain() };
         let auto = Settings { edges: Edges::Hard, ..Settings::default() };
         assert!(wants_tiles(false, &auto, &cpu).is_ok());
-        assert!(wants_tiles(false, &auto, &Limits::plain()).is_err());
+        assert!(wants_tiles(false, &auto, &Limits::plain()).is_ok());
         assert!(wants_tiles(false, &Settings { filter: Filter::Max, ..auto.clone() }, &cpu).is_err());
         let textured = Settings { kernel_eval: KernelEval::Texture, ..auto.clone() };
         assert!(wants_tiles(false, &textured, &cpu).is_err());

@@ -69,7 +69,11 @@ pub(crate) fn list<'a>(
         update,
         Start::Load,
     );
-    let count = walk_key([&shaders::TILE_COUNT_COLUMN_COMP, &shaders::TILE_COUNT_PIXEL_COMP], plan, visible.is_some());
+    let count = walk_key(
+        [&shaders::TILE_COUNT_COLUMN_COMP, &shaders::TILE_COUNT_PIXEL_COMP],
+        plan,
+        visible.is_some(),
+    );
     finish(pass, inputs, (plan, count), |pass| walk(pass, plan))?;
 
     let groups = plan.bin_count().div_ceil(TOTAL_GROUP_SIZE);
@@ -99,7 +103,8 @@ pub(crate) fn list<'a>(
         .read(at(BIND_STARTS), &tiles.starts, read)
         .write(at(BIND_COUNTS), &mut tiles.counts, update, Start::Load)
         .write(at(BIND_ENTRIES), &mut tiles.entries, write, Start::Discard);
-    let fill = walk_key([&shaders::TILE_FILL_COLUMN_COMP, &shaders::TILE_FILL_PIXEL_COMP], plan, visible.is_some());
+    let fill =
+        walk_key([&shaders::TILE_FILL_COLUMN_COMP, &shaders::TILE_FILL_PIXEL_COMP], plan, visible.is_some());
     finish(pass, inputs, (plan, fill), |pass| walk(pass, plan))?;
     Ok(tiles)
 }

@@ -82,7 +82,10 @@ fn depth_without_a_picture_is_that_of_the_picture() {
             unsafe { alone.draw(&beside.renderer, beside.engine.commands) }.unwrap();
             beside.engine.end_rendering();
             beside.submit();
-            assert!(beside.engine.depths() == depths, "{rasterizer:?}, {edges:?}");
+            let apart: Vec<_> =
+                beside.engine.depths().into_iter().zip(depths.clone()).filter(|(a, b)| a != b).collect();
+            let some = &apart[..apart.len().min(3)];
+            assert!(apart.is_empty(), "{rasterizer:?}, {edges:?}: {} differ, such as {some:?}", apart.len());
             let reds = beside.engine.pixels().iter().filter(|color| **color == RED).count();
             assert_eq!(reds, depths.len(), "{rasterizer:?}, {edges:?}: the picture is the engine's");
             beside.draw(&[], &camera, &settings, &CORNERS, false);
