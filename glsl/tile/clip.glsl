@@ -13,7 +13,9 @@ float kept_by(Curve curve, vec2 px)
     float before = kept_side(curve, px + half_ramp);
     float above = max(behind, 0.0) + max(before, 0.0);
     float all = abs(behind) + abs(before);
-    return (all > 0.0 ? above / all : 1.0) + 2.0 * float(uint(curve.c.w) / CURVE_TOWARD);
+    // What is left whole is so to the last bit, which a GPU's division does not promise: a number by itself may be less than 1.
+    bool is_cut = all > 0.0 && (behind < 0.0 || before < 0.0);
+    return (is_cut ? above / all : 1.0) + 2.0 * float(uint(curve.c.w) / CURVE_TOWARD);
 }
 
 // What the curve leaves, where it is less than what is left, or of a second one, which both have to remove, more.

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 named! {
     /// How a splat becomes fragments.
     Rasterizer {
-        /// `compute` where that is faster and can draw it: unless splats are few; else `perspective`. Never another picture.
+        /// `compute` where that is faster and can draw it: but for few splats on a CPU driver; else `perspective`. Never another picture.
         Auto = "auto",
         /// Points, by the inverse projective map, expanded about the projected center (Guennebaud et al. 2006, section 3).
         Perspective = "perspective",

@@ -3,7 +3,7 @@
 use super::draws::Draw;
 use crate::scene::Settings;
 
-/// Pixels of the image for each splat above which tiles are not taken. Where they begin to lose was measured to lie between 870 and 2600
+/// Pixels of the image for each splat above which tiles are not taken on a CPU. Where they begin to lose was measured to lie between 870 and 2600
 /// at 512x512, 1050 and 3500 at 1024x1024, 4200 and 14 000 at 2048x2048 (`benches/README.md`).
 const MOST_PIXELS_A_SPLAT: u64 = 1000;
 

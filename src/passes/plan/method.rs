@@ -190,7 +190,7 @@ fn wants_tiles(few: bool, settings: &Settings, limits: &Limits) -> std::result::
         Rasterizer::Auto if limits.is_cpu && !Invocations::has_columns(limits) => {
             Err("auto: on a CPU tiles gain by shuffles among 8 invocations, which the device lacks")
         }
-        Rasterizer::Auto if few => Err("auto: so few that tiles gain little"),
+        Rasterizer::Auto if few && limits.is_cpu => Err("auto: so few that tiles gain little on a CPU"),
         Rasterizer::Auto => can_do_tiles(settings, limits).map(|()| "auto: faster than points"),
         _ => Err("another rasterizer was asked for"),
     }
@@ -241,6 +241,7 @@ mod tests {
         assert!(wants_tiles(false, &textured, &cpu).is_err());
         assert!(wants_tiles(false, &auto, &Limits { first_instance: false, ..cpu }).is_err());
         assert!(wants_tiles(true, &auto, &cpu).is_err());
+        assert!(wants_tiles(true, &auto, &Limits::plain()).is_ok());
         assert!(wants_tiles(false, &auto, &Limits { shuffles: false, ..cpu }).is_err());
         // Nothing else covers pixels in part.
         let covers = Settings::default();
