@@ -21,21 +21,33 @@ fn no_walk_exceeds_the_iterations_and_no_buffer_the_range() {
     for count in [1, 7, 1000, 154_000, 1_400_000, 5_000_000, 8_388_608] {
         for px in [3.0, 11.0, 40.0, 500.0, f64::INFINITY] {
             let sizes = [[1, 1], [1024, 1024], [4096, 4096], [8192, 8192]];
-            let of_both = sizes.map(|size_px| HEIGHTS.map(|of| (size_px, of)));
+            let every = [Invocations::Columns, Invocations::ShortColumns, Invocations::Pixels];
+            let of_all = sizes.map(|size_px| every.map(|of| (size_px, of)));
             let largest = ([16_384, 8192], Invocations::Columns);
-            for (size_px, invocations) in of_both.into_iter().flatten().chain([largest]) {
+            for (size_px, invocations) in of_all.into_iter().flatten().chain([largest]) {
                 let plan = plan_of(&[(count, px)], size_px, invocations).unwrap();
                 assert!(plan.round_length * plan.most_tiles <= MOST_ITERATIONS, "{plan:?}");
                 assert!(plan.round_length > 0 && plan.most_tiles > 0, "{plan:?}");
                 assert!(plan.segments * plan.segment_length >= plan.record_count, "{plan:?}");
                 assert_eq!(plan.segment_length % SEGMENT_BLOCK, 0);
                 assert!(plan.entry_room * 4 <= 1 << 27 && plan.entry_room >= u64::from(count), "{plan:?}");
-                let counts = u64::from(plan.segments) * u64::from(plan.bin_count()) * 4;
-                assert!(counts <= 1 << 27, "{plan:?}");
+                assert!(plan.count_bytes() <= 1 << 27, "{plan:?}");
                 assert!(plan.walk_length / 8 * 2 < 65_535, "{plan:?}");
             }
         }
     }
+}
+
+#[test]
+fn workgroups_walk_over_pieces_of_segments_as_far_as_memory_allows_and_over_one_in_bands() {
+    let pieces = |size_px, of| plan_of(&[(1000, 3.0)], size_px, of).unwrap().pieces;
+    assert_eq!(pieces([1024, 1024], Invocations::Pixels), 4);
+    assert_eq!(pieces([4096, 4096], Invocations::Pixels), 1);
+    assert_eq!(pieces([1024, 1024], Invocations::Columns), 1);
+    let whole = plan_of(&[(1000, 3.0)], [1024, 1024], Invocations::Pixels).unwrap();
+    let band = whole.clone().in_one_piece();
+    assert_eq!(whole.count_bytes(), 4 * band.count_bytes());
+    assert_eq!((whole.walks(), band.walks()), (4 * whole.segments, whole.segments));
 }
 
 #[test]
