@@ -158,6 +158,18 @@ fn large_splats_and_small_ones_are_one_picture() {
     assert!(different(&tiles, &points) <= 10, "{}", different(&tiles, &points));
 }
 
+/// Most splats of these are large, so that their list has several of those that a workgroup looks at together.
+#[test]
+fn large_splats_that_workgroups_list_are_whole_and_in_order() {
+    let mut headless = shared();
+    let camera = scenes::builder::camera([0.0, 0.0, 1.7], [0.0; 3]);
+    let hard = hard(vec![sphere(60, DVec3::ZERO)], camera, [1024, 1024]);
+    let [columns, pixels] = [TileInvocations::Column, TileInvocations::Pixel]
+        .map(|own| by_tiles(&mut headless, &by(&hard, own), PICTURE));
+    assert!(passes(&pixels).contains(&"sum large splats"), "{:?}", passes(&pixels));
+    assert_same_bits(&columns, &pixels, "large splats");
+}
+
 #[test]
 fn what_else_a_scene_has_is_drawn_around_it() {
     let mut headless = shared();
