@@ -7,6 +7,7 @@
 void list(uint record, uint bin, uint before);
 #endif
 
+// Coherent: those of a workgroup count together.
 layout(set = 0, binding = BIND_COUNTS, std430) coherent buffer Counts { uint counts[]; };
 
 layout(constant_id = SPEC_TEXELS) const bool TEXELS = false; // CPU drivers read these without a loop over lanes

@@ -26,7 +26,7 @@ const MOST_ITERATIONS: u32 = 60_000;
 /// Segments: enough to keep a CPU's cores busy with vectors of 8, and few enough that their counts of all tiles stay small.
 const SEGMENTS: u32 = 32;
 
-/// Pieces of a segment at most, where workgroups walk: as many workgroups keep a GPU busy. Their counts take so many bytes at most, unless
+/// Pieces of a segment at most, where workgroups walk: the more, the busier is a GPU, and the more memory their counts take: so many bytes at most, unless
 /// those of segments take more.
 const MOST_PIECES: u64 = 4;
 const MOST_BYTES_OF_PIECES: u64 = 64 << 20;
