@@ -1,11 +1,15 @@
 //! What is decided on the host about drawing splats by tiles: how records are cut into segments, how much room lists have.
 
 pub(crate) mod rows;
+mod walks;
 
 use std::ops::Range;
 
 use crate::passes::plan::invocations::Invocations;
-use crate::passes::plan::tiles::rows::tile_rows;
+use crate::passes::plan::tiles::{
+    rows::tile_rows,
+    walks::{MOST_ITERATIONS, pieces_of, round_length, segments_of},
+};
 use crate::{math::size::pixels_along, shaders::config::*, vk::Limits};
 
 /// Bits of a tile's column or row in a tile rect at least; what is left of [`RECT_SIDE_BITS`] is for how many tiles a splat touches
@@ -19,20 +23,6 @@ const MOST_CHUNKS: u32 = u32::MAX - RECT_CHUNK;
 fn most_tiles_a_side(place_bits: u32) -> u32 {
     3 << (RECT_SIDE_BITS - place_bits - 2)
 }
-
-/// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.
-const MOST_ITERATIONS: u32 = 60_000;
-
-/// Segments: enough to keep a CPU's cores busy with vectors of 8, and few enough that their counts of all tiles stay small.
-const SEGMENTS: u32 = 32;
-
-/// Pieces of a segment at most, where workgroups walk: the more, the busier is a GPU, and the more memory their counts take: so many bytes at most, unless
-/// those of segments take more.
-const MOST_PIECES: u64 = 4;
-const MOST_BYTES_OF_PIECES: u64 = 64 << 20;
-
-/// Blocks of a segment at least: of few splats, most of the work is to add up counts that are 0.
-const LEAST_BLOCKS: u32 = 4;
 
 /// Entries of lists that there is room for at least, where the device allows it; for each splat; and for each pixel: as much as
 /// sums of 16 bits take.
@@ -54,19 +44,6 @@ fn tiles_of(box_px: f64, invocations: Invocations) -> u64 {
         ((pixels_along(box_px) + side - 2.0) / side).floor() + 1.0
     };
     (along(TILE_WIDTH) * along(invocations.tile_height())) as u64 // of what has no bound, the largest number
-}
-
-/// Records of one walk of which each has so many tiles. Where a workgroup walks, an invocation has a tile of each of its 64 records' in turn, and 84 iterations for it.
-fn round_length(invocations: Invocations, most_tiles: u32) -> u32 {
-    let iterations = if invocations.walk_together() { MOST_ITERATIONS / 4 * 3 } else { MOST_ITERATIONS };
-    iterations / most_tiles.max(1)
-}
-
-/// Pieces of a segment, for so many bins: of any number of segments, so that all bands of an image have the same.
-fn pieces_of(invocations: Invocations, bins: u64, most_bytes: u64) -> u32 {
-    let most_bytes = MOST_BYTES_OF_PIECES.min(most_bytes);
-    let most = if invocations.walk_together() { MOST_PIECES } else { 1 };
-    (most_bytes / 4 / u64::from(SEGMENTS) / bins).clamp(1, most) as u32
 }
 
 /// This number or one that is less by a third at most. A pipeline is told it: were it any, a camera that moves would have pipelines without
@@ -136,34 +113,19 @@ impl TilePlan {
     /// Bytes of records and lists, and of the lists of splats that may be seen which they are made from.
     pub fn bytes(&self) -> u64 {
         let of_records = bytes_of_records(self.record_room);
-        of_records + self.clip_bytes() + self.entry_room * 4 + self.bytes_of_bins()
+        of_records + self.clip_bytes() + self.entry_room * 4 + self.bytes_of_bins(self.pieces)
     }
 
-    /// Bytes of what there is of each tile, whatever splats it has.
-    pub(crate) fn bytes_of_bins(&self) -> u64 {
+    /// Bytes of what there is of each tile, whatever splats it has, where segments have so many pieces.
+    pub(crate) fn bytes_of_bins(&self, pieces: u32) -> u64 {
         // Starts, tiles with splats, runs, overflow tiles.
-        self.count_bytes() + u64::from(self.bin_count()) * 4 + u64::from(self.tile_count) * 16
+        self.bytes_of_counts(pieces) + u64::from(self.bin_count()) * 4 + u64::from(self.tile_count) * 16
     }
 
     /// Bytes of one splat's record and entries, whose box has so many pixels.
     pub(crate) fn bytes_of_one(&self, box_px: f64) -> u64 {
         let of_clips = if self.clips { u64::from(CLIP_VECTORS) * RECORD_BYTES } else { 0 };
         bytes_of_records(1) + of_clips + 4 * tiles_of(box_px, self.invocations).min(self.most_tiles.into())
-    }
-
-    /// Bytes of what each walk counts in bins.
-    pub(crate) fn count_bytes(&self) -> u64 {
-        u64::from(self.walks()) * u64::from(self.bin_count()) * 4
-    }
-
-    /// The same as a band is planned, of which there are several to save memory.
-    pub(crate) fn in_one_piece(self) -> Self {
-        Self { pieces: 1, ..self }
-    }
-
-    /// Walks that go over all records.
-    pub(crate) fn walks(&self) -> u32 {
-        self.segments * self.pieces
     }
 
     /// Bytes of the clip curves of records.
@@ -201,8 +163,7 @@ impl TilePlan {
         let most_a_side = most_tiles_a_side(place_bits);
         let record_count = u32::try_from(records).ok()?;
         let blocks = record_count.div_ceil(SEGMENT_BLOCK);
-        let segments_with_work = blocks.div_ceil(LEAST_BLOCKS).next_multiple_of(BIN_GROUP_SIZE).min(SEGMENTS);
-        let segments = segments_with_room.min(u64::from(segments_with_work)) as u32;
+        let segments = segments_of(blocks, segments_with_room);
         let segment_length = blocks.div_ceil(segments) * SEGMENT_BLOCK;
         let of_pixels = u64::from(width) * u64::from(height) * ENTRIES_A_PIXEL;
         let room =

@@ -58,9 +58,9 @@ pub(crate) fn largest_of(
     of_bands.max().unwrap_or(0)
 }
 
-/// The part that some rows have of what there is of each tile, whatever splats it has.
+/// The part that some rows have of what there is of each tile, whatever splats it has; segments of a band have one piece.
 fn of_tiles(whole: &TilePlan, rows: Range<u32>) -> u64 {
-    whole.clone().in_one_piece().bytes_of_bins() * rows.len() as u64 / whole.rows.len().max(1) as u64
+    whole.bytes_of_bins(1) * rows.len() as u64 / whole.rows.len().max(1) as u64
 }
 
 /// About what these rows take: records, entries, and their share of the tiles.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use ash::vk;
 
-use crate::passes::plan::tiles::{TilePlan, round_length};
+use crate::passes::plan::tiles::{TilePlan, walks::round_length};
 use crate::{
     passes::plan::{
         draws::Draw,
@@ -70,7 +70,8 @@ impl TilePlan {
     ) -> Option<Self> {
         let size_px = settings.size_px;
         let plan = Self::of_boxes(draws.len(), seen.boxes(&rows), size_px, limits, self.invocations)?;
-        plan.within(rows).in_one_piece().when_drawn(draws, self.hidden, limits)
+        // Bands are to save memory, which the counts of more pieces take.
+        Self { pieces: 1, ..plan.within(rows) }.when_drawn(draws, self.hidden, limits)
     }
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.

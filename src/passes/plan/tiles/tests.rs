@@ -39,15 +39,13 @@ fn no_walk_exceeds_the_iterations_and_no_buffer_the_range() {
 }
 
 #[test]
-fn workgroups_walk_over_pieces_of_segments_as_far_as_memory_allows_and_over_one_in_bands() {
+fn workgroups_walk_over_pieces_of_segments_as_far_as_memory_allows() {
     let pieces = |size_px, of| plan_of(&[(1000, 3.0)], size_px, of).unwrap().pieces;
     assert_eq!(pieces([1024, 1024], Invocations::Pixels), 4);
     assert_eq!(pieces([4096, 4096], Invocations::Pixels), 1);
     assert_eq!(pieces([1024, 1024], Invocations::Columns), 1);
     let whole = plan_of(&[(1000, 3.0)], [1024, 1024], Invocations::Pixels).unwrap();
-    let band = whole.clone().in_one_piece();
-    assert_eq!(whole.count_bytes(), 4 * band.count_bytes());
-    assert_eq!((whole.walks(), band.walks()), (4 * whole.segments, whole.segments));
+    assert_eq!((whole.walks(), whole.count_bytes()), (4 * whole.segments, 4 * whole.bytes_of_counts(1)));
 }
 
 #[test]
