@@ -231,10 +231,14 @@ mod tests {
     fn the_lists_that_come_along_are_right_and_all_there() {
         let suite = Suite::new();
         let names = || suite.cases.iter().map(|case| case.name.as_str());
-        let known =
-            Known::of_driver(Known::built_in().unwrap(), "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", names())
-                .unwrap();
-        assert_eq!(known.lists().collect::<Vec<_>>(), ["lavapipe.txt"]);
+        for (driver, list) in [
+            ("llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", "lavapipe.txt"),
+            ("NVIDIA 580.159.04", "nvidia.txt"),
+            ("SwiftShader driver 5.0.0", "swiftshader.txt"),
+        ] {
+            let known = Known::of_driver(Known::built_in().unwrap(), driver, names()).unwrap();
+            assert_eq!(known.lists().collect::<Vec<_>>(), [list]);
+        }
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/selftest/known_lists");
         let mut files: Vec<_> = std::fs::read_dir(folder)
             .unwrap()
