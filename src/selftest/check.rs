@@ -69,6 +69,7 @@ impl<'a> Stage<'a> {
     pub fn check(&mut self, drawing: &Drawing) -> Result<Found> {
         let Drawing { scene, settings, check } = drawing;
         let frame = self.draw(*scene, settings)?;
+        let mut different_values: fn(&Frame, &Frame) -> usize = agreement::different_values;
         let other = match check {
             Check::Oracle | Check::Light => {
                 let linear = match settings.rasterizer {
@@ -86,7 +87,15 @@ impl<'a> Stage<'a> {
                     |tile_invocations| self.draw(*scene, &Settings { tile_invocations, ..settings.clone() });
                 let columns = by(TileInvocations::Column)?;
                 match agreement::different_values(&frame, &columns) {
-                    0 => by(TileInvocations::ShortColumn)?,
+                    0 => {
+                        let short = by(TileInvocations::ShortColumn)?;
+                        // A tile adds what clip curves cut there after what they leave whole: in a short one that may be less.
+                        if self.suite.scenes[*scene].scene.objects.iter().any(|o| !o.splats.clips.is_empty())
+                        {
+                            different_values = agreement::values_of_other_terms;
+                        }
+                        short
+                    }
                     _ => columns,
                 }
             }
@@ -95,7 +104,7 @@ impl<'a> Stage<'a> {
                 self.draw(*scene, settings)?
             }
         };
-        let (different, covered) = (agreement::different_values(&frame, &other), seen_px(&frame, settings));
+        let (different, covered) = (different_values(&frame, &other), seen_px(&frame, settings));
         let mut problems = Vec::new();
         if different > 0 {
             problems.push(format!("{different} values differ"));

@@ -9,7 +9,7 @@
 //! | `device` | opening and closing the device: what the layer says outside of all other cases |
 //! | `methods` | against the oracle, with 32-bit sums |
 //! | `psi-e`, `unit-weight`, `kernel-texture`, `sums-16` and their combinations | the same with that option of a method |
-//! | `tile-invocations` | tiles drawn an invocation a pixel, a column and a short one have the same bits |
+//! | `tile-invocations` | tiles drawn an invocation a pixel, a column and a short one have the same bits; of clipped splats a short one has them but for the order of sums |
 //! | `repeat` | uploading and drawing again gives the same bits |
 //! | `layers` | the picture of transparent layers, polygons, both beside splats, a scene's own lights; with 32-bit sums |
 //! | `layers-16` | the same with 16-bit sums and the default method |

@@ -17,7 +17,7 @@ a driver, a validation layer, or surfel. Files are not needed, the scenes are bu
 A case is a path: the group, the rasterizer, the filter, the scene. The groups: methods, with 32-bit sums; psi-e, \
 unit-weight, kernel-texture, sums-16 and combinations of them, with those options (sums of 16 bits are held to what rounding alone may do \
 to them; where some hundred splats meet in a pixel that is no bound, and only coverage and finite values are asked for); \
-repeat, drawn twice, which may change none either; tile-invocations, tiles by columns, by short ones and by pixels: the same bits; layers, the picture of what is \
+repeat, drawn twice, which may change none either; tile-invocations, tiles by columns, by short ones and by pixels: the same bits, but by short ones of splats that clip curves cut, whose sums have another order; layers, the picture of what is \
 transparent, of polygons, of both beside splats and of a scene's own lights; layers-16, the same with sums of 16 bits; \
 layers-auto, which has to give the bits of a fixed number of layers. A message of the validation layer \
 fails the case during which it comes; device.open and device.close stand for all outside of cases, and are always run.
