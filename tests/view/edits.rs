@@ -104,6 +104,59 @@ fn a_number_that_is_written_into_the_panel_is_no_key_of_the_window() {
 }
 
 #[test]
+fn things_are_hidden_and_made_transparent_by_key() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    folder.splats("b.ply", 100);
+    let scene = |alpha: &str| {
+        format!(
+            "[[object]]\nfile = \"a.ply\"\n[[object]]\nfile = \"b.ply\"\ntranslate = [0.8, 0.3, 0]\n{alpha}"
+        )
+    };
+    let write = |name: &str, text: &str| folder.write(name, text);
+    write("both.toml", &scene(""));
+    write("clear.toml", &scene("alpha = 0.8\n"));
+    write("alone.toml", &scene("").split("[[object]]\nfile = \"b").next().unwrap().to_owned());
+    let words = |file| [&[file, "--size", "320x240"], &CAMERA[..]].concat();
+    let [both, clear, alone] =
+        ["both.toml", "clear.toml", "alone.toml"].map(|file| render(&folder, &words(file)));
+    assert!(clear.differs_from(&both) > 500 && alone.differs_from(&both) > 1000);
+    let mut view = View::open(&screen, &folder, &words("both.toml"));
+    view.wait_for(&both);
+    let press = |keys: &str| keys.split_whitespace().for_each(|key| screen.key(key));
+    press("N H Escape");
+    view.wait_for(&alone);
+    press("H less less Escape");
+    view.wait_for(&clear);
+    // The next one is the first again.
+    press("greater greater N H N H Escape");
+    view.wait_until("nothing is left", |shot| shot.colors() < 5);
+    press("0 Escape");
+    view.wait_for(&both);
+    view.end();
+}
+
+#[test]
+fn a_window_that_is_put_away_comes_back_with_what_is_new() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    let words = [&["a.ply", "--size", "320x240"], &CAMERA[..]].concat();
+    let mut view = View::open(&screen, &folder, &words);
+    view.wait_for(&render(&folder, &words));
+    let number = view.number().to_string();
+    for count in [60, 200] {
+        // As window managers do with one that is made an icon.
+        screen.drive(&["windowunmap", "--sync", &number]);
+        view.wait_until("it is gone", |shot| shot.colors() < 3);
+        folder.splats("a.ply", count);
+        thread::sleep(Duration::from_millis(1500));
+        screen.drive(&["windowmap", "--sync", &number]);
+        view.wait_for(&render(&folder, &words));
+    }
+    view.end();
+}
+
+#[test]
 fn the_panel_is_used_by_keys_alone() {
     let (screen, folder) = (Screen::new(), Folder::new());
     folder.splats("a.ply", 400);

@@ -70,7 +70,7 @@ fn every_key_does_its_work_without_a_message() {
     view.wait_until("something is shown", |shot| shot.colors() > 20);
     screen.drive(&["mousemove", "200", "150"]);
     let keys = "1 2 3 4 5 6 7 f h u u t t p p r r r R g g G k n b b v V l L bracketleft bracketright m m m period comma \
-                y r x z space space c C i o o question question F1 Escape F5 w s a d q e j j Return 1 Return K slash BackSpace";
+                y r x z space space c C i o o question question N H less greater H F1 Escape F5 w s a d q e j j Return 1 Return K slash BackSpace";
     for key in keys.split_whitespace() {
         screen.key(key);
         std::thread::sleep(Duration::from_millis(40));

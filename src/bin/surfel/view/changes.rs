@@ -85,6 +85,7 @@ impl Viewer {
             Action::Screenshot => self.write_picture(),
             Action::CopyCamera(how) => self.copy_camera(how),
             Action::Cut(how) => self.cut(how),
+            Action::Thing(what) => self.on_thing(what),
             Action::Reset => self.reset(),
             Action::Compare(how) => self.compare(how),
             Action::Path(what) => self.on_path(what),

@@ -39,6 +39,8 @@ pub enum Action {
     CopyCamera(CopiedAs),
     /// What is cut off.
     Cut(Cutting),
+    /// What is done with one thing of the scene.
+    Thing(OnThing),
     /// All settings as they were at first.
     Reset,
     /// How the picture is compared with another method.
@@ -95,6 +97,17 @@ pub enum Comparing {
     Flicker,
     /// The settings of now are those of the other one.
     Keep,
+}
+
+/// What is done with one thing of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OnThing {
+    /// The next one is meant from now on.
+    Next,
+    /// It is hidden, or shown again.
+    Hide,
+    /// So much more alpha, or less.
+    Alpha(f32),
 }
 
 /// How planes cut the scene.
@@ -163,6 +176,10 @@ pub const BINDINGS: &[Binding] = &[
     binding("B", Action::Cut(Cutting::Box), "cuts off what is outside of a box, or nothing"),
     binding("=", Action::Cut(Cutting::More), "the cut goes deeper"),
     binding("-", Action::Cut(Cutting::Less), "the cut goes less deep"),
+    binding("N", Action::Thing(OnThing::Next), "the next thing of the scene, for the three keys below"),
+    binding("H", Action::Thing(OnThing::Hide), "hides that thing, or shows it again"),
+    binding("<", Action::Thing(OnThing::Alpha(-0.1)), "that thing is more transparent"),
+    binding(">", Action::Thing(OnThing::Alpha(0.1)), "that thing is less transparent"),
     binding("0", Action::Reset, "method, light, cuts and things as at the beginning"),
     binding("x", Action::Compare(Comparing::Split), "split: this method and the one kept"),
     binding("z", Action::Compare(Comparing::Difference), "difference of the two, with a color bar"),

@@ -1,6 +1,6 @@
 //! The panel, the keys and the messages over the picture. Everything in the panel can be done by keys, too.
 
-use egui::{Color32, ComboBox, Context, Grid, Id, ScrollArea, Slider, Ui, Vec2};
+use egui::{Color32, ComboBox, Context, Grid, Id, RichText, ScrollArea, Slider, Ui, Vec2};
 use surfel::{
     Result,
     scene::{Encoding, Layers, MOST_LAYERS, Settings, Tonemap},
@@ -22,6 +22,8 @@ pub struct State {
     pub edits: Edits,
     /// Names and kinds of the scene's things.
     pub things: Vec<(String, String)>,
+    /// The one that keys change.
+    pub thing: usize,
     pub facts: Vec<(&'static str, String)>,
     pub shows_difference: bool,
 }
@@ -75,6 +77,7 @@ impl State {
             encoding: viewer.encoding,
             edits: viewer.edits.clone(),
             things: viewer.document.as_ref().map(|document| things(&document.scene)).unwrap_or_default(),
+            thing: viewer.thing,
             facts,
             shows_difference: viewer.comparing == Some(Comparing::Difference),
         }
@@ -146,6 +149,8 @@ pub fn show(context: &Context, state: &State, history: &History, changes: &mut V
 fn scene(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
     for (number, (name, kind)) in state.things.iter().enumerate() {
         let Some((mut seen, mut alpha)) = state.edits.things.get(number).copied() else { continue };
+        let chosen = state.things.len() > 1 && number == state.thing;
+        let name = if chosen { RichText::new(name).underline() } else { RichText::new(name) };
         let mut changed = ui.checkbox(&mut seen, name).on_hover_text(kind).changed();
         // Taken when it is let go: the scene goes to the device again.
         let key = Id::new(("alpha", number));

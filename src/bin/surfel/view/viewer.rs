@@ -52,6 +52,8 @@ pub struct Viewer {
     /// Both as they were at first.
     pub first: (Settings, Encoding),
     pub edits: Edits,
+    /// The thing of the scene that keys change.
+    pub thing: usize,
     /// What was drawn last.
     pub drawn: Option<(Settings, Camera)>,
     /// The method that is compared with, and how, if it is.
@@ -130,6 +132,7 @@ impl Viewer {
             prepared: None,
             navigation: None,
             edits: Edits { things: Vec::new(), splat_scale: 1.0 },
+            thing: 0,
             comparing: None,
             split: 0.5,
             clipboard: Clipboard::default(),
@@ -237,7 +240,7 @@ impl Viewer {
             navigation => *navigation = Some(Navigation::new(document.camera, document.ball)),
         }
         if !(self.keeps_camera && self.edits.things.len() == Edits::none(&document.scene).things.len()) {
-            self.edits = Edits::none(&document.scene);
+            (self.edits, self.thing) = (Edits::none(&document.scene), 0);
         }
         let names: Vec<_> = document.inputs.iter().map(|input| input.name.as_str()).collect();
         self.window.set_title(&format!("{} - surfel (? shows the keys)", names.join(", ")));
