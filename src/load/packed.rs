@@ -105,7 +105,7 @@ fn gzip(path: &Path, _: &[u8], _: &mut Take<'_>) -> Result<()> {
 
 #[cfg(feature = "zstd")]
 fn zstd(path: &Path, bytes: &[u8], limits: &Limits, take: &mut Take<'_>) -> Result<()> {
-    use ruzstd::decoding::{FrameDecoder, StreamingDecoder};
+    use ruzstd::decoding::{FrameDecoder, StreamingDecoder, errors::FrameDecoderError};
 
     // The decoder keeps a window beside its output, of a size that the file names.
     let largest_window = (limits.unpacked(bytes.len()) / 4).max(USUAL_WINDOW_BYTES);
@@ -115,7 +115,15 @@ fn zstd(path: &Path, bytes: &[u8], limits: &Limits, take: &mut Take<'_>) -> Resu
         let mut decoder = FrameDecoder::new();
         decoder.set_max_window_size(largest_window);
         let decoder = StreamingDecoder::new_with_decoder(&mut rest, decoder)
-            .map_err(|e| damaged(Packing::Zstd, path, &e.to_string()))?;
+            .map_err(|error| match error {
+                FrameDecoderError::WindowSizeTooBig { requested, .. } => {
+                    let problem = format!(
+                        "zstd with a window of {requested} bytes, where this file's may have {largest_window}; unpack it first if you trust it"
+                    );
+                    Error::input(path, "", problem)
+                }
+                _ => damaged(Packing::Zstd, path, 0),
+            })?;
         each_part(decoder, Packing::Zstd, path, take)?;
     }
     Ok(())
@@ -131,13 +139,16 @@ fn zstd(path: &Path, _: &[u8], _: &Limits, _: &mut Take<'_>) -> Result<()> {
     allow(dead_code, reason = "nothing can be unpacked")
 )]
 fn each_part(mut stream: impl Read, packing: Packing, path: &Path, take: &mut Take<'_>) -> Result<()> {
-    let mut part = vec![0; PART_BYTES];
+    let (mut part, mut before) = (vec![0; PART_BYTES], 0_u64);
     loop {
         match stream.read(&mut part) {
             Ok(0) => return Ok(()),
-            Ok(length) => take(part.get(..length).unwrap_or_default())?,
+            Ok(length) => {
+                take(part.get(..length).unwrap_or_default())?;
+                before += length as u64;
+            }
             Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
-            Err(e) => return Err(damaged(packing, path, &e.to_string())),
+            Err(_) => return Err(damaged(packing, path, before)),
         }
     }
 }
@@ -146,8 +157,12 @@ fn each_part(mut stream: impl Read, packing: Packing, path: &Path, take: &mut Ta
     not(any(feature = "gzip", feature = "zstd")),
     allow(dead_code, reason = "nothing can be unpacked")
 )]
-fn damaged(packing: Packing, path: &Path, why: &str) -> Error {
-    Error::input(path, "", format!("damaged {}: {why}; expected a whole file", packing.name()))
+fn damaged(packing: Packing, path: &Path, before: u64) -> Error {
+    let name = packing.name();
+    let problem = format!(
+        "damaged or cut {name}: {before} bytes of what is inside can be read, but no more; expected a whole file, so copy it again"
+    );
+    Error::input(path, "", problem)
 }
 
 #[cfg(not(all(feature = "gzip", feature = "zstd")))]
@@ -204,7 +219,8 @@ mod tests {
         }
         // A window of 1 << 41 bytes, which the decoder would keep beside its output.
         let window = [0x28, 0xb5, 0x2f, 0xfd, 0x00, 0xf8, 0x01, 0x00, 0x00];
-        assert!(unpack(&window).unwrap_err().starts_with("a.ply.gz: damaged zstd: "));
+        let refused = unpack(&window).unwrap_err();
+        assert!(refused.starts_with("a.ply.gz: zstd with a window of 2199023255552 bytes"), "{refused}");
     }
 
     #[test]
@@ -227,7 +243,12 @@ mod tests {
             for end in 4..bytes.len() {
                 let _ = unpack(&bytes[..end]);
             }
-            assert!(unpack(&bytes[..bytes.len() / 2]).is_err());
+            let refused = unpack(&bytes[..bytes.len() / 2]).unwrap_err();
+            assert!(
+                refused.starts_with("a.ply.gz: damaged or cut ")
+                    && refused.contains(" bytes of what is inside can be read"),
+                "{refused}"
+            );
             // What is read of them may be anything; its format is not looked at.
             let text: String = (0..60).map(|i| format!("v {} {i} 0\n", i * i % 7)).collect();
             let files = [bytes, pack(text.as_bytes())];
