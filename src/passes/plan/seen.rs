@@ -49,40 +49,69 @@ pub struct PotentiallyVisibleBlocks<'a> {
 }
 
 /// What is not told apart of boxes: within a whole pixel ([`crate::math::size::pixels_along`]) they are in as many tiles.
-fn size_of(run: &PotentiallyVisibleRun) -> f64 {
+fn whole_px_of(run: &PotentiallyVisibleRun) -> u32 {
     // Not `floor`, which is a call where a processor has no instruction for it.
-    let whole_px = (run.box_px - 1.5) as u32;
+    (run.box_px - 1.5) as u32
+}
+
+/// The largest box of so many whole pixels.
+fn size_of(whole_px: u32) -> f64 {
     if whole_px < u32::MAX { f64::from(whole_px) + 2.499 } else { f64::INFINITY }
+}
+
+/// Sizes below that have a place in a table: nearly all are, and to search for each, where none is as the one before, takes as long as all else.
+const SMALL_PX: usize = 256;
+
+/// The sizes of boxes that there are, the smallest first, and where each is among them.
+struct Sizes<'a> {
+    /// In whole pixels.
+    all: &'a [u32],
+    small: [u32; SMALL_PX],
+}
+
+impl<'a> Sizes<'a> {
+    fn of(arena: &'a Arena, runs: impl Iterator<Item = &'a PotentiallyVisibleRun>) -> Self {
+        let (mut is_there, mut large) = ([false; SMALL_PX], arena.growing::<u32>());
+        for run in runs {
+            let whole_px = whole_px_of(run);
+            match is_there.get_mut(whole_px as usize) {
+                Some(is_there) => *is_there = true,
+                None => {
+                    if let Err(place) = large.binary_search(&whole_px) {
+                        large.insert(place, whole_px);
+                    }
+                }
+            }
+        }
+        let (mut all, mut small) = (arena.growing(), [0; SMALL_PX]);
+        for (whole_px, _) in (0..).zip(&is_there).filter(|(_, is_there)| **is_there) {
+            small[whole_px as usize] = all.len() as u32;
+            all.push(whole_px);
+        }
+        all.extend_from_slice_copy(&large);
+        Self { all: all.into_bump_slice(), small }
+    }
+
+    /// The place of one that there is.
+    fn place_of(&self, whole_px: u32) -> usize {
+        match self.small.get(whole_px as usize) {
+            Some(place) => *place as usize,
+            None => self.all.partition_point(|other| *other < whole_px),
+        }
+    }
 }
 
 impl<'a> PotentiallyVisibleBlocks<'a> {
     /// Those of some runs, in an image with so many rows of tiles.
     pub fn new(arena: &'a Arena, chunks: &'a [&'a [PotentiallyVisibleRun]], rows: u32) -> Self {
-        let mut sizes_px = arena.growing::<f64>();
-        let place_of =
-            |sizes_px: &[f64], size: f64| sizes_px.binary_search_by(|other| other.total_cmp(&size));
-        // Neighbors are often of one size.
-        let mut last = f64::NAN;
-        for run in chunks.iter().copied().flatten() {
-            let size = size_of(run);
-            if size != last {
-                last = size;
-                if let Err(place) = place_of(&sizes_px, size) {
-                    sizes_px.insert(place, size);
-                }
-            }
-        }
-        let count = sizes_px.len();
+        let runs = || chunks.iter().copied().flatten();
+        let sizes = Sizes::of(arena, runs());
+        let count = sizes.all.len();
         let mut before = arena.growing();
         before.resize(count * (rows as usize + 1), [0; 2]);
-        let (mut last, mut size) = (f64::NAN, 0);
         let mut touched = [u32::MAX, 0];
-        for run in chunks.iter().copied().flatten() {
-            let size_px = size_of(run);
-            if size_px != last {
-                last = size_px;
-                size = place_of(&sizes_px, size_px).unwrap_or_else(|place| place);
-            }
+        for run in runs() {
+            let size = sizes.place_of(whole_px_of(run));
             touched = [touched[0].min(run.rows.start), touched[1].max(run.rows.end)];
             // In the row behind the one where it begins or ends; then summed up.
             before[(run.rows.start as usize + 1) * count + size][0] += run.count;
@@ -93,7 +122,8 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
             before[place][0] += begun;
             before[place][1] += ended;
         }
-        let (sizes_px, before) = (sizes_px.into_bump_slice(), before.into_bump_slice());
+        let sizes_px = arena.list(sizes.all.iter().map(|whole_px| size_of(*whole_px)));
+        let before = before.into_bump_slice();
         Self { chunks, sizes_px, before, rows: touched }
     }
 
