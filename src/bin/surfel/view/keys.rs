@@ -228,6 +228,8 @@ mod tests {
         assert_eq!(keys.len(), BINDINGS.len());
         assert!(["w", "a", "s", "d", "q", "e"].iter().all(|key| !keys.contains(key)));
         assert_eq!(action("h"), Some(Action::Home));
-        assert_eq!(action("H"), None);
+        // Large letters are keys of their own.
+        assert_eq!(action("H"), Some(Action::Thing(OnThing::Hide)));
+        assert_eq!(action("F"), None);
     }
 }
