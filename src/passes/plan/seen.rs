@@ -188,4 +188,37 @@ mod tests {
         assert_eq!(rows(&[&[], &[run(3..4)]]), Some(3..4));
         assert_eq!(rows(&[&[], &[]]), None);
     }
+
+    /// Sizes on either side of the table's end, and without a bound.
+    #[test]
+    fn boxes_of_rows_are_those_of_the_runs_there() {
+        let sizes_px = [4.2, 4.9, 3.5, 258.4, 257.6, 256.6, 1000.0, f64::INFINITY, 5000.5];
+        let runs: Vec<PotentiallyVisibleRun> = (0..200_u32)
+            .map(|i| PotentiallyVisibleRun {
+                first: i,
+                blocks: 1,
+                count: 1 + i * i % 256,
+                box_px: sizes_px[(i * 7 % 9) as usize],
+                rows: i % 17..i % 17 + 1 + i % 4,
+                all_seen: true,
+                all_of_level: true,
+            })
+            .collect();
+        let arena = Arena::new();
+        let seen =
+            PotentiallyVisibleBlocks::new(&arena, arena.list([&runs[..90], &runs[90..]].into_iter()), 20);
+        for rows in [0..20, 3..4, 5..11, 19..20] {
+            let found: Vec<(u32, f64)> = seen.boxes(&rows).collect();
+            assert!(found.is_sorted_by(|a, b| a.1 < b.1), "{found:?}");
+            for (count, px) in &found {
+                let is_of_size = |run: &&PotentiallyVisibleRun| {
+                    run.touches(&rows) && run.box_px <= *px && !(run.box_px + 1.0 < *px)
+                };
+                let expected: u32 = runs.iter().filter(is_of_size).map(|run| run.count).sum();
+                assert_eq!(*count, expected, "{px} in {rows:?}");
+            }
+            let all: u32 = runs.iter().filter(|run| run.touches(&rows)).map(|run| run.count).sum();
+            assert_eq!(found.iter().map(|(count, _)| count).sum::<u32>(), all, "{rows:?}");
+        }
+    }
 }
