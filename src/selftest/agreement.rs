@@ -142,7 +142,10 @@ pub fn different_values(a: &Frame, b: &Frame) -> usize {
 /// How many values differ by more than sums of the same terms in another order do. f32 rounds each of n sums by 2⁻²⁴ of itself: with the
 /// 64 splats that hard scenes have in a pixel, and a shaded color that turns with its normal ([`HIGHLIGHT_SLOPE`]), by 2⁻¹⁷.
 pub(super) fn values_of_other_terms(a: &Frame, b: &Frame) -> usize {
-    values_apart(a, b, |a, b| a.to_bits() != b.to_bits() && !((a - b).abs() <= a.abs().max(1.0) / 131_072.0))
+    values_apart(a, b, |a, b| {
+        let apart = (a - b).abs();
+        a.to_bits() != b.to_bits() && (apart.is_nan() || apart > a.abs().max(1.0) / 131_072.0)
+    })
 }
 
 fn values_apart(a: &Frame, b: &Frame, is_apart: impl Fn(f32, f32) -> bool) -> usize {

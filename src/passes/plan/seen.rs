@@ -205,14 +205,13 @@ mod tests {
             })
             .collect();
         let arena = Arena::new();
-        let seen =
-            PotentiallyVisibleBlocks::new(&arena, arena.list([&runs[..90], &runs[90..]].into_iter()), 20);
+        let seen = PotentiallyVisibleBlocks::new(&arena, arena.list([&runs[..90], &runs[90..]]), 20);
         for rows in [0..20, 3..4, 5..11, 19..20] {
             let found: Vec<(u32, f64)> = seen.boxes(&rows).collect();
             assert!(found.is_sorted_by(|a, b| a.1 < b.1), "{found:?}");
             for (count, px) in &found {
                 let is_of_size = |run: &&PotentiallyVisibleRun| {
-                    run.touches(&rows) && run.box_px <= *px && !(run.box_px + 1.0 < *px)
+                    run.touches(&rows) && run.box_px <= *px && run.box_px + 1.0 >= *px
                 };
                 let expected: u32 = runs.iter().filter(is_of_size).map(|run| run.count).sum();
                 assert_eq!(*count, expected, "{px} in {rows:?}");
