@@ -116,7 +116,7 @@ fn things_are_hidden_and_made_transparent_by_key() {
     let write = |name: &str, text: &str| folder.write(name, text);
     write("both.toml", &scene(""));
     write("clear.toml", &scene("alpha = 0.8\n"));
-    write("alone.toml", &scene("").split("[[object]]\nfile = \"b").next().unwrap());
+    write("alone.toml", scene("").split("[[object]]\nfile = \"b").next().unwrap());
     let words = |file| [&[file, "--size", "320x240"], &CAMERA[..]].concat();
     let [both, clear, alone] =
         ["both.toml", "clear.toml", "alone.toml"].map(|file| render(&folder, &words(file)));
