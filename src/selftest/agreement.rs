@@ -139,8 +139,8 @@ pub fn different_values(a: &Frame, b: &Frame) -> usize {
     values_apart(a, b, |a, b| a.to_bits() != b.to_bits())
 }
 
-/// How many values differ by more than sums of the same terms in another order do. f32 rounds each of n sums by 2⁻²⁴ of itself: with the
-/// 64 splats that hard scenes have in a pixel, and a shaded color that turns with its normal ([`HIGHLIGHT_SLOPE`]), by 2⁻¹⁷.
+/// How many values differ by more than sums of the same terms in another order do. f32 rounds each of n sums by 2⁻²⁴ of itself: with up to
+/// 64 splats in a pixel, and a shaded color that turns with its normal ([`HIGHLIGHT_SLOPE`]), by 2⁻¹⁷.
 pub(super) fn values_of_other_terms(a: &Frame, b: &Frame) -> usize {
     values_apart(a, b, |a, b| {
         let apart = (a - b).abs();
