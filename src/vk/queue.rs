@@ -16,7 +16,22 @@ pub struct Queue {
     raw: Mutex<vk::Queue>,
     timeline: vk::Semaphore,
     submitted: AtomicU64,
+    /// Up to which epoch validation was told that all is done.
+    told: AtomicU64,
 }
+
+/// All stages of ours that read or write; best-practices validation wants them by name.
+#[cfg(feature = "view")]
+const ALL_STAGES: vk::PipelineStageFlags2 = {
+    use vk::PipelineStageFlags2 as Stages;
+    let graphics = Stages::DRAW_INDIRECT.as_raw()
+        | Stages::VERTEX_SHADER.as_raw()
+        | Stages::FRAGMENT_SHADER.as_raw()
+        | Stages::EARLY_FRAGMENT_TESTS.as_raw()
+        | Stages::LATE_FRAGMENT_TESTS.as_raw()
+        | Stages::COLOR_ATTACHMENT_OUTPUT.as_raw();
+    Stages::from_raw(graphics | Stages::COMPUTE_SHADER.as_raw() | Stages::TRANSFER.as_raw())
+};
 
 impl Queue {
     /// The first queue of the device's family. At most one `Queue` may exist for a device at a time: its lock is what
@@ -43,7 +58,13 @@ impl Queue {
         let timeline =
             unsafe { device.raw().create_semaphore(&info, None) }.of_call("vkCreateSemaphore", "timeline")?;
         device.set_name(timeline, "timeline");
-        Ok(Self { device: device.clone(), raw: Mutex::new(raw), timeline, submitted: AtomicU64::new(0) })
+        Ok(Self {
+            device: device.clone(),
+            raw: Mutex::new(raw),
+            timeline,
+            submitted: AtomicU64::new(0),
+            told: AtomicU64::new(0),
+        })
     }
 
     /// Submits a recorded command buffer and returns its epoch, to [wait](Self::wait) for.
@@ -58,8 +79,30 @@ impl Queue {
         unsafe { self.submit_with(commands, &[], None) }
     }
 
+    /// Records that all is done which validation was told to be, before other commands that draw to an image of a window. Layers of 1.3.239
+    /// take from an image that is acquired again what its submission before has accessed, even where the queue was idle since and others
+    /// have that memory now; and they would hand it on from image to image. Records nothing where there is nothing to tell.
+    ///
+    /// # Safety
+    /// `commands` is recording outside of rendering, and is submitted by [`Queue::submit_for_window`] with this image.
+    #[cfg(feature = "view")]
+    pub unsafe fn tell_done(&self, commands: vk::CommandBuffer, image: &super::SwapchainImage) {
+        let before = image.epoch.load(Ordering::Acquire);
+        if before == 0 || before > self.told.load(Ordering::Acquire) {
+            return;
+        }
+        let barrier = [vk::MemoryBarrier2::default()
+            .src_stage_mask(ALL_STAGES)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(ALL_STAGES)
+            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
+        let info = vk::DependencyInfo::default().memory_barriers(&barrier);
+        // SAFETY: this function's contract.
+        unsafe { self.device.raw().cmd_pipeline_barrier2(commands, &info) };
+    }
+
     /// Submits between the acquisition of a window's image and its presentation: colors are written once `acquired` is signaled, and
-    /// `drawn` is signaled at the end.
+    /// the image's `drawn` is signaled at the end.
     ///
     /// # Safety
     /// As [`Queue::submit`]; `acquired` is signaled or about to be, and nothing else waits for it; `drawn` is waited for by nothing but the
@@ -72,13 +115,15 @@ impl Queue {
         &self,
         commands: vk::CommandBuffer,
         acquired: &super::Semaphore,
-        drawn: &super::Semaphore,
+        image: &super::SwapchainImage,
     ) -> Result<u64> {
         let waits = [vk::SemaphoreSubmitInfo::default()
             .semaphore(acquired.raw())
             .stage_mask(vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT)];
         // SAFETY: this function's contract.
-        unsafe { self.submit_with(commands, &waits, Some(drawn.raw())) }
+        let epoch = unsafe { self.submit_with(commands, &waits, Some(image.drawn.raw())) }?;
+        image.epoch.store(epoch, Ordering::Release);
+        Ok(epoch)
     }
 
     /// Presents an image of a window once it is drawn.
@@ -166,6 +211,7 @@ impl Queue {
             let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
             // SAFETY: the lock synchronizes the queue.
             unsafe { self.device.raw().queue_wait_idle(*queue) }.of_call("vkQueueWaitIdle", "queue")?;
+            self.told.store(self.submitted.load(Ordering::Acquire), Ordering::Release);
         }
         // SAFETY: the timeline counts every submission of this device in order.
         unsafe { self.device.epoch_done(epoch) };

@@ -1,5 +1,7 @@
 //! Swapchains: the images that a window shows in turn.
 
+use std::sync::atomic::AtomicU64;
+
 use ash::{khr, vk};
 
 use super::{
@@ -31,6 +33,8 @@ pub struct SwapchainImage {
     pub view: vk::ImageView,
     /// Signaled by the submission that draws to it, waited for by its presentation.
     pub drawn: Semaphore,
+    /// The submission that drew to it last; 0 before the first.
+    pub(super) epoch: AtomicU64,
 }
 
 /// What a call to acquire or to present an image came to.
@@ -127,7 +131,7 @@ impl Swapchain {
             let drawn = Semaphore::new(&self.device, &format!("{name} is drawn"))?;
             // SAFETY: the image is alive as long as the swapchain, which goes after the view.
             let view = unsafe { color_view(&self.device, image, self.format, &name) }?;
-            self.images.push(SwapchainImage { image, view, drawn });
+            self.images.push(SwapchainImage { image, view, drawn, epoch: AtomicU64::new(0) });
         }
         Ok(())
     }

@@ -144,6 +144,8 @@ impl Gpu {
         let begun = Instant::now();
         // SAFETY: the frame's submission before was waited for.
         let commands = unsafe { frame.commands.begin() }?;
+        // SAFETY: recording; submitted with this image below.
+        unsafe { queue.tell_done(commands, image) };
         for (which, view) in desc.views {
             let slot = &mut self.pictures[which.index()];
             let target = slot.target(self.headless.device(), view)?;
@@ -185,7 +187,7 @@ impl Gpu {
         }
         let commands = frame.commands.end()?;
         // SAFETY: recorded just now; `acquired` is to be signaled by the acquisition, `drawn` is waited for by the presentation below.
-        let epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, &image.drawn) }?;
+        let epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, image) }?;
         (frame.epoch, self.is_acquired) = (epoch, false);
         for (which, view) in desc.views {
             let what = if *which == Use::Other { "other" } else { desc.what };
@@ -223,14 +225,15 @@ impl Gpu {
             (self.headless.device(), self.headless.queue(), &mut self.frames[self.number]);
         // SAFETY: the frame's submission before was waited for, and what was recorded since is not submitted.
         let commands = unsafe { frame.commands.begin() }?;
-        // SAFETY: recording; the image is acquired.
+        // SAFETY: recording; the image is acquired, and submitted below.
         unsafe {
+            queue.tell_done(commands, image);
             begin_rendering(device, commands, image, swapchain.extent());
             end_rendering(device, commands, image);
         }
         let commands = frame.commands.end()?;
         // SAFETY: as in `draw_to`.
-        frame.epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, &image.drawn) }?;
+        frame.epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, image) }?;
         self.number = (self.number + 1) % IN_FLIGHT;
         (self.is_acquired, self.fits) = (false, false);
         // SAFETY: acquired and submitted above; what it comes to shows at the next frame.
