@@ -36,7 +36,7 @@ impl Closer<'_> {
         match self {
             Self::InPart => 4096,
             Self::Tall => 256,
-            Self::Cut(_) => 4096,
+            Self::Cut(_) => 2048,
         }
     }
 
