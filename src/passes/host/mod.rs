@@ -1,5 +1,9 @@
 //! A frame beside what a host draws itself: the host's depth comes in, and what the host lays over its own picture is left to it: the opaque
 //! surface and its own depth, and the transparent layers.
+//!
+//! Two draws of the view's lay the surface over the host's picture (`host_over.frag.glsl`): what covers half of a pixel or more with its depth, what covers less
+//! without. Layers are a third, hidden by the host's depth when they are drawn (`depth_in`). Where numbers of objects or motion are asked for, a pass finds whose the
+//! surface is by its depth (`objects_out`), and the draw reads of that thing its number and how it has moved.
 
 pub(crate) mod depth_in;
 pub(crate) mod depth_out;

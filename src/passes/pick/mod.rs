@@ -1,5 +1,6 @@
 //! Picking: what is seen in one pixel, and where it is. An image of that pixel alone, whose splats are looked for as those of frames
-//! are, in the blocks that may touch it; a frame has no part in it, and pays nothing for it.
+//! are, in the blocks that may touch it; a frame has no part in it, and pays nothing for it. An invocation finds which is nearest of a word of splats, or of a run
+//! of triangles, by the equations of all others; the host takes the nearest of them, and finds its place along the pixel's ray in `f64` (`plan`).
 
 mod plan;
 

@@ -1,4 +1,6 @@
-//! The planes that cut what is seen, as a camera sees them.
+//! The planes that cut what is seen, as a camera sees them. Their number is a specialization constant; the host writes them into a buffer of the frame's slot, and
+//! pipelines that know them find it in every set (`passes/recording.rs`). What is wholly cut off is not listed. By tiles with `--edges coverage` the cut is the edge
+//! of a surface, low-passed (`glsl/tile/clip.glsl`).
 
 use glam::DVec4;
 
