@@ -31,7 +31,7 @@ pub struct Limits {
     pub piped_bytes: u64,
     /// Bytes to which the compressed points of any LAZ or PCD file may expand, however small it is.
     pub expanded_bytes: u64,
-    /// As [`Limits::expanded_bytes`], for files that are compressed as a whole, by gzip or zstd.
+    /// As [`Limits::expanded_bytes`], for files that are compressed as a whole, by gzip or zstd, and for nodes of Potree.
     pub unpacked_bytes: u64,
     /// Bytes to which each byte of a larger compressed file may expand beyond these.
     pub expansion: u64,
@@ -77,7 +77,7 @@ impl Limits {
         expansion.saturating_mul(compressed as u64).saturating_add(self.expanded_bytes)
     }
 
-    /// As [`Limits::expanded`], for files that are compressed as a whole.
+    /// As [`Limits::expanded`], for files that are compressed as a whole, and nodes of Potree.
     pub(super) fn unpacked(&self, compressed: usize) -> u64 {
         self.expansion.saturating_mul(compressed as u64).saturating_add(self.unpacked_bytes)
     }

@@ -1,9 +1,12 @@
-//! COPC and Potree 2 files of a cloud, written for tests by the formats' own descriptions and not by what reads them.
+//! COPC and Potree 2 (`potree_files.rs`) files of a cloud, written for tests by the formats' own descriptions and not by what reads them.
 
 use std::{
     collections::{BTreeMap, HashSet},
     io::{Cursor, Seek as _},
 };
+
+#[path = "potree_files.rs"]
+mod potree_files;
 
 use laz::{LasZipCompressor, LazItemRecordBuilder, LazVlr, LazVlrBuilder};
 
@@ -212,58 +215,6 @@ impl Octree {
         header.extend([0; 120]);
         assert_eq!(header.len(), 375);
         header
-    }
-
-    /// `metadata.json`, `hierarchy.bin` and `octree.bin` of Potree 2.
-    pub fn potree(&self, page_levels: i32) -> [Vec<u8>; 3] {
-        let mut octree = Vec::new();
-        let mut places = BTreeMap::new();
-        for (key, points) in &self.nodes {
-            let begin = octree.len() as u64;
-            for (at, color) in points {
-                at.iter().for_each(|step| octree.extend(step.to_le_bytes()));
-                octree.extend(7_u16.to_le_bytes());
-                octree.push(2);
-                color.iter().for_each(|value| octree.extend(value.to_le_bytes()));
-            }
-            places.insert(*key, (begin, octree.len() as u64 - begin));
-        }
-        let roots = self.roots(page_levels);
-        let mut begin = 0;
-        let mut pages = BTreeMap::new();
-        for root in &roots {
-            let bytes = 22 * self.page(*root, page_levels).len() as u64;
-            pages.insert(*root, (begin, bytes));
-            begin += bytes;
-        }
-        let mut hierarchy = Vec::new();
-        for (key, is_page) in roots.iter().flat_map(|root| self.page(*root, page_levels)) {
-            let children: Vec<Key> = self.children(key).collect();
-            let number = |child: &Key| (child[1] & 1) << 2 | (child[2] & 1) << 1 | child[3] & 1;
-            let mask = children.iter().fold(0_u8, |mask, child| mask | 1 << number(child));
-            let kind = if is_page { 2 } else { u8::from(children.is_empty()) };
-            let (at, bytes) = if is_page { pages[&key] } else { places[&key] };
-            hierarchy.extend([kind, mask]);
-            hierarchy.extend((self.nodes[&key].len() as u32).to_le_bytes());
-            hierarchy.extend(at.to_le_bytes());
-            hierarchy.extend(bytes.to_le_bytes());
-        }
-        let min = [0, 1, 2].map(|axis| OFFSET[axis] + f64::from(self.min[axis]) * SCALE);
-        let max = min.map(|at| at + f64::from(self.side) * SCALE);
-        let metadata = format!(
-            r#"{{"version": "2.0", "name": "a", "description": "", "points": {}, "projection": "",
-"hierarchy": {{"firstChunkSize": {}, "stepSize": 4, "depth": 9}},
-"offset": {OFFSET:?}, "scale": [{SCALE}, {SCALE}, {SCALE}], "spacing": {}, "boundingBox": {{"min": {min:?}, "max": {max:?}}}, "encoding": "DEFAULT",
-"attributes": [
-{{"name": "position", "description": "", "size": 12, "numElements": 3, "elementSize": 4, "type": "int32", "min": {min:?}, "max": {max:?}}},
-{{"name": "intensity", "description": "", "size": 2, "numElements": 1, "elementSize": 2, "type": "uint16", "min": [7], "max": [7]}},
-{{"name": "classification", "description": "", "size": 1, "numElements": 1, "elementSize": 1, "type": "uint8", "min": [2], "max": [2]}},
-{{"name": "rgb", "description": "", "size": 6, "numElements": 3, "elementSize": 2, "type": "uint16", "min": [0, 0, 0], "max": [65535, 65535, 65535]}}]}}"#,
-            self.count(),
-            pages[&[0; 4]].1,
-            self.spacing()
-        );
-        [metadata.into_bytes(), hierarchy, octree]
     }
 }
 

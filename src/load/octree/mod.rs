@@ -9,6 +9,7 @@
 //! taken for it.
 
 mod copc;
+mod packed_node;
 mod pages;
 mod potree;
 mod source;
@@ -125,7 +126,8 @@ impl<R: Read + Seek> PointOctree<R> {
         if points > limits.points {
             return Err(fault(format!("{points}; expected at most {}", limits.points)));
         }
-        let most = nodes.bytes / form.record_bytes as u64;
+        let room = if form.is_packed { limits.unpacked(nodes.bytes as usize) } else { nodes.bytes };
+        let most = room / form.record_bytes as u64;
         if points > most {
             let problem = format!(
                 "{points} of {} bytes in {} bytes; expected at most {most}",
@@ -254,7 +256,7 @@ impl<R: Read + Seek> PointOctree<R> {
             let decode = |(key, points, bytes): &(NodeKey, usize, Vec<u8>)| {
                 let read = match &self.form {
                     Form::Copc(form) => form.decode(bytes, *points, &self.limits),
-                    Form::Potree(form) => form.decode(bytes, *points),
+                    Form::Potree(form) => form.decode(bytes, *points, &self.limits),
                 };
                 read.map_err(|problem| Error::input(&self.nodes.path, format!("node {key}"), problem))
             };
@@ -279,7 +281,7 @@ impl<R: Read + Seek> PointOctree<R> {
         let path = source.path.clone();
         let entries = match &self.form {
             Form::Copc(_) => pages::of_copc(&bytes),
-            Form::Potree(form) => pages::of_potree(&bytes, root, form.record_bytes as u64),
+            Form::Potree(form) => pages::of_potree(&bytes, root, form.bytes_of_record()),
         };
         let sizes = [self.hierarchy.as_ref().unwrap_or(&self.nodes).bytes, self.nodes.bytes];
         let added = entries.and_then(|entries| self.tree.add(root, span, entries, sizes));

@@ -50,11 +50,11 @@ pub(super) fn of_copc(bytes: &[u8]) -> Result<Vec<(NodeKey, Entry)>, String> {
     entries(bytes, COPC_ENTRY_BYTES)?.enumerate().map(entry).collect()
 }
 
-/// Potree: one level after the other, each node's children by its mask.
+/// Potree: one level after the other, each node's children by its mask; its bytes are those of its points' records, where these are not compressed.
 pub(super) fn of_potree(
     bytes: &[u8],
     root: NodeKey,
-    record_bytes: u64,
+    record_bytes: Option<u64>,
 ) -> Result<Vec<(NodeKey, Entry)>, String> {
     let entries = entries(bytes, POTREE_ENTRY_BYTES)?;
     let count = entries.len();
@@ -73,7 +73,7 @@ pub(super) fn of_potree(
         }
         // Without bytes it has no points, whatever it says.
         let points = if span.bytes == 0 { 0 } else { points };
-        let expected = u64::from(points) * record_bytes;
+        let expected = record_bytes.map_or(span.bytes, |bytes| u64::from(points) * bytes);
         if span.bytes != expected {
             return refuse(format!("{points} points in {} bytes; expected {expected}", span.bytes));
         }

@@ -5,11 +5,11 @@ use std::{fs::File, path::Path};
 use glam::DVec3;
 use serde::Deserialize;
 
-use super::{Source, Span, Tree};
+use super::{Source, Span, Tree, packed_node};
 use crate::{
     error::{Error, Result},
     load::{
-        LoadOptions,
+        Limits, LoadOptions,
         beside::{self, Refusal},
         las::{Columns, NOISE},
         sniff::{is_potree, without_mark},
@@ -68,7 +68,10 @@ struct Attribute {
 
 /// How its nodes are written.
 pub(super) struct Form {
+    /// Bytes of a point, where it is not compressed.
     pub record_bytes: usize,
+    /// Nodes are compressed, one column an attribute.
+    pub is_packed: bool,
     scale: DVec3,
     offset: DVec3,
     position_at: usize,
@@ -121,11 +124,8 @@ pub(super) fn read(path: &Path, metadata: &[u8], hierarchy_bytes: u64) -> Result
     if !version.starts_with("2.") {
         return Err(refuse("version", format!("'{version}'; expected 2.0")));
     }
-    if metadata.encoding != "DEFAULT" && metadata.encoding != "UNCOMPRESSED" {
-        let problem = format!(
-            "'{}'; expected DEFAULT (PotreeConverter without --encoding BROTLI)",
-            short(&metadata.encoding)
-        );
+    if !["DEFAULT", "UNCOMPRESSED", "BROTLI"].contains(&metadata.encoding.as_str()) {
+        let problem = format!("'{}'; expected DEFAULT, UNCOMPRESSED or BROTLI", short(&metadata.encoding));
         return Err(refuse("encoding", problem));
     }
     let [scale, offset] = [metadata.scale, metadata.offset].map(DVec3::from);
@@ -173,6 +173,7 @@ fn tight(position: &Attribute) -> Option<Bounds> {
 
 impl Form {
     fn new(metadata: &Metadata, scale: DVec3, offset: DVec3) -> Result<Self, String> {
+        let is_packed = metadata.encoding == "BROTLI";
         let mut at = 0_u64;
         let [mut position, mut color, mut intensity, mut class] = [None; 4];
         for Attribute { name, size, kind, .. } in &metadata.attributes {
@@ -184,7 +185,12 @@ impl Form {
                 ("classification", "uint8", 1) => class = place,
                 _ => {}
             }
-            at = at.saturating_add(*size);
+            let size = match place {
+                _ if is_packed && position == place => packed_node::POSITION_BYTES,
+                _ if is_packed && color == place => packed_node::COLOR_BYTES,
+                _ => *size,
+            };
+            at = at.saturating_add(size);
             if at > MOST_RECORD_BYTES {
                 return Err(format!("records of {at} bytes; expected at most {MOST_RECORD_BYTES}"));
             }
@@ -194,6 +200,7 @@ impl Form {
         };
         Ok(Self {
             record_bytes: at as usize,
+            is_packed,
             scale,
             offset,
             position_at,
@@ -207,26 +214,52 @@ impl Form {
         self.color_at.is_some()
     }
 
-    /// The points of a node, one record after the other.
-    pub fn decode(&self, bytes: &[u8], points: usize) -> Result<Columns, String> {
+    /// Bytes of a point in its node; none where they differ.
+    pub fn bytes_of_record(&self) -> Option<u64> {
+        (!self.is_packed).then_some(self.record_bytes as u64)
+    }
+
+    /// The points of a node: one record after the other, or, compressed, one column.
+    pub fn decode(&self, bytes: &[u8], points: usize, limits: &Limits) -> Result<Columns, String> {
+        let unpacked;
+        let bytes = match self.is_packed {
+            true => {
+                unpacked = packed_node::unpack(bytes, (points * self.record_bytes) as u64, limits)?;
+                &unpacked
+            }
+            false => bytes,
+        };
+        // An attribute's bytes of a point.
+        let own = |point: usize, at: usize, width: usize| {
+            let begin = match self.is_packed {
+                true => at * points + width * point,
+                false => at + self.record_bytes * point,
+            };
+            bytes.get(begin..begin + width).unwrap_or_default()
+        };
+        let short = |bytes: &[u8]| u16::from_le_bytes(bytes.first_chunk().copied().unwrap_or_default());
+        let position = |point: usize| match self.is_packed {
+            true => packed_node::position(own(point, self.position_at, 16)),
+            false => [0, 4, 8].map(|at| {
+                let bytes = own(point, self.position_at + at, 4);
+                i32::from_le_bytes(bytes.first_chunk().copied().unwrap_or_default())
+            }),
+        };
+        let color = |point: usize, at: usize| match self.is_packed {
+            true => packed_node::three(own(point, at, 8)),
+            false => [0, 2, 4].map(|channel| short(own(point, at + channel, 2))),
+        };
         let mut columns = Columns::default();
-        for record in bytes.chunks_exact(self.record_bytes).take(points) {
-            let class = self.class_at.and_then(|at| record.get(at));
+        for point in 0..points {
+            let class = self.class_at.and_then(|at| own(point, at, 1).first());
             if class.is_some_and(|class| NOISE.contains(class)) {
                 columns.noise += 1;
                 continue;
             }
-            let int = |axis: usize| {
-                let bytes = record.get(self.position_at + 4 * axis..).and_then(|rest| rest.first_chunk());
-                f64::from(bytes.map_or(0, |bytes| i32::from_le_bytes(*bytes)))
-            };
-            let short = |at: usize| {
-                let bytes = record.get(at..).and_then(|rest| rest.first_chunk());
-                bytes.map_or(0, |bytes| u16::from_le_bytes(*bytes))
-            };
-            columns.positions.push(DVec3::new(int(0), int(1), int(2)) * self.scale + self.offset);
-            columns.colors.extend(self.color_at.map(|at| [short(at), short(at + 2), short(at + 4)]));
-            columns.intensities.push(self.intensity_at.map_or(0, short));
+            let steps = DVec3::from(position(point).map(f64::from));
+            columns.positions.push(steps * self.scale + self.offset);
+            columns.colors.extend(self.color_at.map(|at| color(point, at)));
+            columns.intensities.push(self.intensity_at.map_or(0, |at| short(own(point, at, 2))));
         }
         Ok(columns)
     }

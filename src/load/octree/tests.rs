@@ -86,8 +86,9 @@ fn both_formats_have_all_points_of_the_cloud_where_they_are() {
     let flat = las_points(&octree.copc(2).0);
     let mut copc = of_copc(octree.copc(2).0).unwrap();
     let mut potree = of_potree(octree.potree(2)).unwrap();
+    let mut packed = of_potree(octree.packed_potree(2)).unwrap();
     assert_eq!(flat.positions.len(), 30_000);
-    for octree in [&mut copc, &mut potree] {
+    for octree in [&mut copc, &mut potree, &mut packed] {
         assert_eq!(octree.points(), 30_000);
         assert!((octree.spacing() - 4.096).abs() < 1e-9);
         let all = octree.choose(&|_| true).unwrap();
@@ -245,8 +246,8 @@ fn potree_of_other_kinds_and_wrong_hierarchies_are_refused() {
         of_potree([metadata.replacen(from, to, 1).into_bytes(), hierarchy.clone(), nodes.clone()])
     };
     refuses(
-        changed("DEFAULT", "BROTLI"),
-        "metadata.json: encoding: 'BROTLI'; expected DEFAULT (PotreeConverter without --encoding BROTLI)",
+        changed("DEFAULT", "ZIP"),
+        "metadata.json: encoding: 'ZIP'; expected DEFAULT, UNCOMPRESSED or BROTLI",
     );
     refuses(changed("\"2.0\"", "\"1.8\""), "metadata.json: version: '1.8'; expected 2.0");
     refuses(changed("\"position\"", "\"place\""), "metadata.json: attributes: no position of three int32");

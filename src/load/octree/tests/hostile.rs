@@ -5,7 +5,7 @@ use super::*;
 fn hostile_bytes_are_refused_or_read() {
     let octree = octree(150);
     let (copc, root) = octree.copc(1);
-    let potree = octree.potree(1);
+    let potree = [octree.potree(1), octree.packed_potree(1)];
     let read = |octree: Result<PointOctree<Cursor<Vec<u8>>>>| {
         let read = octree.and_then(|mut octree| {
             let all = octree.choose(&|_| true)?;
@@ -22,7 +22,7 @@ fn hostile_bytes_are_refused_or_read() {
     let mut below = |most: usize| (random.bits() % most as u64) as usize;
     for case in 0..40_000 {
         let mut copc = copc.clone();
-        let mut files = potree.clone();
+        let mut files = potree[case / 2 % 2].clone();
         for _ in 0..=below(3) {
             // The hierarchy and the headers, more than the points.
             let (bytes, at) = match (case % 2, below(4)) {
