@@ -43,6 +43,7 @@ pub(super) fn cut(
     scene: &Scene,
     progress: &dyn Fn(u64, u64),
 ) -> Result<PreparedScene> {
+    scene.check_lengths()?;
     updatable::check(scene)?;
     let of_splats = scene.objects.iter().map(|object| object.name.as_str());
     let leveled = scene.leveled.iter().map(|object| object.name.as_str());

@@ -123,7 +123,7 @@ impl PreparedScene {
 /// first frame and the batch lives until then. `progress` is called with splats done and splats in all.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Option`] for a scene that is to be updatable and can't be; whatever the allocator, the driver or `submit` answers.
+/// [`crate::ErrorKind::Option`] for an object of which a list is shorter or longer than that of its positions, and for a scene that is to be updatable and can't be; whatever the allocator, the driver or `submit` answers.
 pub fn prepare(
     device: &Device,
     limits: &Limits,
@@ -151,6 +151,45 @@ fn pieces(range: Range<usize>, size: usize) -> impl Iterator<Item = Range<usize>
 
 #[cfg(test)]
 mod tests {
+    use glam::{DVec3, Vec3};
+
+    use super::*;
+    use crate::scene::{Colors, Mesh, MeshObject, Object, Shapes, Splats};
+
+    #[test]
+    fn lists_that_are_not_as_long_as_the_positions_are_refused_by_name() {
+        let positions = vec![DVec3::ZERO; 10];
+        let said = |scene: &Scene| {
+            prepare_without_device(&Limits::plain(), scene).map(drop).map_err(|e| e.to_string())
+        };
+        let of = |shapes, colors| {
+            let splats = Splats::new(positions.clone(), shapes, colors);
+            let objects = vec![Object { name: "ball".to_owned(), splats, closed: true }];
+            said(&Scene { objects, ..Scene::default() })
+        };
+        let disks =
+            |normals, radii| Shapes::Disks { normals: vec![Vec3::Z; normals], radii: vec![1.0; radii] };
+        let ellipses = |s, t| Shapes::Ellipses { s: vec![Vec3::X; s], t: vec![Vec3::Y; t] };
+        let one = || Colors::Uniform([1.0; 4]);
+        assert_eq!(of(disks(10, 10), one()), Ok(()));
+        assert_eq!(of(disks(10, 10), Colors::Each(vec![[1.0; 4]; 10])), Ok(()));
+        for (shapes, colors, words) in [
+            (disks(10, 9), one(), "9 radii"),
+            (disks(11, 10), one(), "11 normals"),
+            (ellipses(0, 10), one(), "0 first tangents"),
+            (ellipses(10, 1), one(), "1 second tangents"),
+            (disks(10, 10), Colors::Each(vec![[1.0; 4]; 3]), "3 colors"),
+        ] {
+            let words = format!("object 'ball': 10 positions, and {words}; expected as many");
+            assert_eq!(of(shapes, colors), Err(words));
+        }
+        let normals = Some(vec![Vec3::Z; 2]);
+        let mesh = Mesh { positions, normals, colors: one(), triangles: vec![[0, 1, 2]] };
+        let meshes = vec![MeshObject { name: "part".to_owned(), mesh, closed: false }];
+        let words = "mesh 'part': 10 positions, and 2 normals; expected as many";
+        assert_eq!(said(&Scene { meshes, ..Scene::default() }), Err(words.to_owned()));
+    }
+
     /// A host may draw one scene from several threads. Fails to compile where that is not so.
     #[test]
     fn a_scene_is_shared_between_threads() {

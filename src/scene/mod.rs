@@ -17,6 +17,7 @@ mod gather;
 mod host_camera;
 mod hybrid;
 mod layers;
+mod lengths;
 mod level_settings;
 mod levels;
 mod light;
