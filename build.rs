@@ -48,7 +48,7 @@ fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
         }
         Ok(())
     };
-    let which = "only packages that third_party/prebuilt made have it";
+    let which = "only packages that third_party/prebuilt made have it; the feature compile-shaders makes it";
     copy().map_err(|e| vec![format!("cannot copy {} (prebuilt-spirv): {e}; {which}", shipped.display())])
 }
 

@@ -1040,7 +1040,7 @@ SurfelResult surfel_view_prepare(struct SurfelView *view, VkCommandBuffer comman
 /**
  * Records the draws of the frame that was prepared: one to three triangles. `commands` are those of `surfel_view_prepare`, or others that
  * are submitted after them to the same queue; they are inside of a rendering as the view was made for, which covers the view's area.
- * Clobbers the pipeline, viewport and scissor, and of the graphics bind point set 0 and push constants.
+ * Clobbers the pipeline, viewport and scissor, and of the graphics bind point all sets and push constants.
  */
 SurfelResult surfel_view_draw(const struct SurfelView *view, VkCommandBuffer commands);
 

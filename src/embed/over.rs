@@ -155,7 +155,10 @@ impl Rendering {
             return refused("samples", format!("{:?}: expected one of {counts:?}", self.samples));
         }
         match self.has_depth() && self.nearer_is_greater().is_none() {
-            true => refused("compare", format!("{:?}: expected LESS or GREATER, or equal", self.compare)),
+            true => refused(
+                "compare",
+                format!("{:?}: expected LESS, LESS_OR_EQUAL, GREATER or GREATER_OR_EQUAL", self.compare),
+            ),
             false => Ok(()),
         }
     }

@@ -125,8 +125,11 @@ impl Chunk {
     fn change(&self, first: u32, splats: &Splats) -> Result<Option<Change>> {
         let refused = |problem: String| Err(Error::option("update", problem));
         let Some(shadow) = &self.shadow else {
-            let what =
-                if self.clipped { "clip curves cut its splats" } else { "its scene was not prepared for it" };
+            let what = if self.clipped {
+                "clip curves cut its splats"
+            } else {
+                "expected a scene that was uploaded with Scene::updatable"
+            };
             return refused(format!("{what}: expected an object of an updatable scene, of whole splats"));
         };
         let numbers = first..first + splats.len() as u32;
