@@ -1,11 +1,10 @@
 //! Points become splats: normals and radii that the file does not have, from the points nearby.
 //!
-//! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`], or the one of their [`sheets`]
-//! that it lies on, or of coarser [`patches`] where there is [`noise`]; normals are turned to one side ([`orient`]); isolated points are left
-//! out ([`outliers`]); disks [`reach`] as far as closes the surface. All of it is the same whatever the number of threads.
+//! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`], or the one of their [`sheets`] that it lies on, or of coarser
+//! [`patches`] where there is [`noise`]; normals are turned to one side ([`orient`]); isolated points are left out ([`outliers`], [`strays`]); disks [`reach`] as far as
+//! closes the surface. All of it is the same whatever the number of threads.
 //!
-//! Splats are round: ellipses take half as much memory again (48 bytes on the device instead of 32), and gain only where points lie
-//! much denser along one direction than across.
+//! Splats are round: ellipses take half as much memory again (48 bytes on the device instead of 32), and gain only where points lie much denser along one direction than across.
 
 mod fit;
 mod merge;
@@ -17,6 +16,7 @@ mod plane;
 mod reach;
 mod report;
 mod sheets;
+mod strays;
 #[cfg(test)]
 mod tests;
 
@@ -66,7 +66,7 @@ pub fn splats_from_points(points: Points, progress: &dyn Progress) -> (Splats, C
     let steps = Steps { progress, passes: 2 };
     cloud.find_planes(&points, &steps, &mut report);
     report.coarse_step = merge::coarse_step(&points.positions, &cloud.spreads, duplicates);
-    let isolated = outliers::isolated(&cloud.neighbors, &cloud.spreads);
+    let isolated = outliers::isolated(&cloud.tree, &cloud.neighbors, &cloud.spreads);
     let radii = cloud.radii(&points, &isolated, &steps, &mut report);
     // Back into the order of the file.
     let count = points.positions.len();

@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::plane::NEIGHBORS;
+use super::{plane::NEIGHBORS, strays};
+use crate::geometry::neighbors::Tree;
 
 /// A point is isolated whose neighbors are so many times as far away as its neighbors' neighbors are from them. Where the density
 /// of a scan changes by 1:10 this is √10 at most.
@@ -11,8 +12,14 @@ pub(super) const ISOLATED: f64 = 8.0;
 /// No disk is larger than so many times the median of its neighbors'; it then gets the median.
 const LARGEST: f32 = 4.0;
 
-/// Whether each point is isolated; `spreads` are mean distances of neighbors.
-pub(super) fn isolated(neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<bool> {
+/// Whether each point is isolated, or a stray; `spreads` are mean distances of neighbors.
+pub(super) fn isolated(tree: &Tree, neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<bool> {
+    let mut isolated = far_from_all(neighbors, spreads);
+    strays::mark(tree, neighbors, spreads, &mut isolated);
+    isolated
+}
+
+fn far_from_all(neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<bool> {
     let is_isolated = |(near, &spread): (&[u32; NEIGHBORS], &f64)| {
         median_below(spread / ISOLATED, near, |j| spreads[j]).is_some()
     };
@@ -54,8 +61,8 @@ mod tests {
         let mut near = [u32::MAX; NEIGHBORS];
         near[..3].copy_from_slice(&[0, 1, 2]);
         let all = [near; 4];
-        assert_eq!(isolated(&all, &[1.0, 1.0, 1.1, 9.0]), [false, false, false, true]);
+        assert_eq!(far_from_all(&all, &[1.0, 1.0, 1.1, 9.0]), [false, false, false, true]);
         assert_eq!(limit_radii(&all, &[1.0, 1.0, 1.0, 4.5]), vec![1.0; 4]);
-        assert_eq!(isolated(&[[u32::MAX; NEIGHBORS]], &[1.0]), [false]);
+        assert_eq!(far_from_all(&[[u32::MAX; NEIGHBORS]], &[1.0]), [false]);
     }
 }
