@@ -108,8 +108,12 @@ pub fn load_bytes(
 
 fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress) -> Result<Loaded> {
     let folder = source.folder.as_deref();
-    let input = Input { path: &source.path, folder, bytes: &source.bytes, options, progress };
     let format = sniff::format(&source.path, &source.name, &source.bytes)?;
+    let bytes = match format {
+        sniff::Format::Ply | sniff::Format::Obj => sniff::without_mark(&source.bytes),
+        _ => &source.bytes,
+    };
+    let input = Input { path: &source.path, folder, bytes, options, progress };
     let mut loaded = match format {
         sniff::Format::Ply => ply::parse(&input),
         sniff::Format::Obj => obj::parse(&input),
@@ -132,6 +136,12 @@ fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress)
         }
     }?;
     refuse_nothing(&input, &loaded)?;
+    let unused = options.columns.is_some() && format != sniff::Format::Rows;
+    loaded.note(
+        Deed::Ignored,
+        unused.into(),
+        "choice of columns (--columns, of a file without rows of numbers)",
+    );
     if let Model::Mesh(mesh) = &mut loaded.model {
         let unused = mesh.drop_unused_vertices();
         loaded.note(Deed::Dropped, unused as u64, "vertices without a face");

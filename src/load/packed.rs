@@ -31,6 +31,7 @@ impl Packing {
         match bytes {
             [0x1f, 0x8b, ..] => Some(Self::Gzip),
             [0x28, 0xb5, 0x2f, 0xfd, ..] => Some(Self::Zstd),
+            _ if skippable(bytes).is_some() => Some(Self::Zstd),
             _ => None,
         }
     }
@@ -89,13 +90,26 @@ impl Packing {
     }
 }
 
+/// What is behind a frame of zstd that decoders skip (RFC 8878, section 3.1.2), as programs that compress on many threads begin with; `None` of any other.
+fn skippable(bytes: &[u8]) -> Option<&[u8]> {
+    let [0x50..=0x5f, 0x2a, 0x4d, 0x18, size @ ..] = bytes else { return None };
+    let (size, rest) = size.split_first_chunk()?;
+    rest.get(u32::from_le_bytes(*size) as usize..)
+}
+
 /// What is done with a part of what is inside.
 type Take<'a> = dyn FnMut(&[u8]) -> Result<()> + 'a;
 
 #[cfg(feature = "gzip")]
 fn gzip(path: &Path, bytes: &[u8], take: &mut Take<'_>) -> Result<()> {
-    // A file may be several, one after the other.
-    each_part(flate2::read::MultiGzDecoder::new(bytes), Packing::Gzip, path, take)
+    let mut rest = bytes;
+    // A file may be several, one after the other, and blocks of tapes are filled with zeros.
+    while rest.iter().any(|byte| *byte != 0) {
+        let mut decoder = flate2::bufread::GzDecoder::new(rest);
+        each_part(&mut decoder, Packing::Gzip, path, take)?;
+        rest = decoder.into_inner();
+    }
+    Ok(())
 }
 
 #[cfg(not(feature = "gzip"))]
@@ -112,6 +126,10 @@ fn zstd(path: &Path, bytes: &[u8], limits: &Limits, take: &mut Take<'_>) -> Resu
     let mut rest = bytes;
     // A file may be several, one after the other.
     while !rest.is_empty() {
+        if let Some(behind) = skippable(rest) {
+            rest = behind;
+            continue;
+        }
         let mut decoder = FrameDecoder::new();
         decoder.set_max_window_size(largest_window);
         let decoder = StreamingDecoder::new_with_decoder(&mut rest, decoder)
@@ -207,6 +225,13 @@ mod tests {
             let twice = [once, pack(b"more")].concat();
             assert_eq!(unpack(&twice).unwrap(), b"ply\nformat ascii 1.0\nmore");
         }
+        let padded = [&gzipped(b"points")[..], &[0; 512]].concat();
+        assert_eq!(unpack(&padded).unwrap(), b"points");
+        let skipped = |number: u8, size: u8| [number, 0x2a, 0x4d, 0x18, size, 0, 0, 0, 7, 7];
+        let pieces = [&skipped(0x50, 2)[..], &zstd_of(b"poi"), &skipped(0x5f, 2), &zstd_of(b"nts")].concat();
+        assert_eq!(unpack(&pieces).unwrap(), b"points");
+        assert_eq!(Packing::of(&skipped(0x50, 3)), None, "cut");
+        assert!(unpack(&[&gzipped(b"points")[..], b"junk"].concat()).unwrap_err().contains("damaged or cut"));
     }
 
     #[test]

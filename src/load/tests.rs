@@ -198,3 +198,28 @@ fn a_file_in_memory_is_read_as_one_on_disk() {
     let refused = of("a.ply", b"plywood".to_vec()).unwrap_err().to_string();
     assert!(refused.starts_with("a.ply: named .ply"), "{refused}");
 }
+
+/// As some editors begin a file.
+#[test]
+fn marks_of_utf8_are_read_past_in_every_text() {
+    let ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
+    for (name, text) in [("a.ply", ply), ("a.obj", "v 1 2 3\n"), ("a.xyz", "1 2 3\n")] {
+        let marked = format!("\u{feff}{text}").into_bytes();
+        let loaded = load_bytes(Path::new(name), marked, &LoadOptions::default(), &()).unwrap();
+        let Model::Points(points) = loaded.model else { panic!("{name}") };
+        assert_eq!(points.positions, [DVec3::new(1.0, 2.0, 3.0)], "{name}");
+    }
+}
+
+#[test]
+fn a_choice_of_columns_is_told_where_there_are_none() {
+    let options = LoadOptions { columns: Some("x,y,z".parse().unwrap()), ..LoadOptions::default() };
+    for (name, text, told) in [("a.obj", "v 1 2 3\n", 1), ("a.xyz", "1 2 3\n", 0)] {
+        let loaded = load_bytes(Path::new(name), text.into(), &options, &()).unwrap();
+        assert_eq!(
+            loaded.notes.iter().filter(|note| note.to_string().contains("--columns")).count(),
+            told,
+            "{name}"
+        );
+    }
+}

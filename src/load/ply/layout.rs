@@ -31,6 +31,8 @@ pub(super) struct Layout {
     pub exact_colors: bool,
     /// What is read past although its name tells what it is: each in words that follow a number of vertices.
     pub ignored: Vec<String>,
+    /// The names of all others that mean nothing here.
+    pub unread: Vec<String>,
 }
 
 /// The properties of a trained Gaussian.
@@ -83,6 +85,7 @@ impl Layout {
         if gaussian.is_some() && named("f_rest_") {
             finder.ignore("Gaussians' view-dependent colors, but for their means,");
         }
+        finder.layout.unread = finder.unread();
         Ok(finder.layout)
     }
 }
@@ -131,6 +134,20 @@ impl Finder<'_> {
 
     fn is_whole(&self, names: &[&str]) -> bool {
         names.iter().all(|name| self.def.scalar(name).is_some())
+    }
+
+    /// What no column is of, and nothing is said of.
+    fn unread(&self) -> Vec<String> {
+        let Layout { wanted, ignored, gaussian, .. } = &self.layout;
+        let is_told = |name: &str| {
+            let is_size = name == "radius" || SIZES.contains(&name);
+            let quoted = format!("'{name}'");
+            gaussian.is_some() && name.starts_with("f_rest_")
+                || ignored.iter().any(|told| told.contains(&quoted) || is_size && told.starts_with("sizes"))
+        };
+        let all = self.def.properties.iter().enumerate();
+        let others = all.filter(|(number, property)| !wanted.contains(number) && !is_told(&property.name));
+        others.map(|(_, property)| property.name.clone()).collect()
     }
 
     fn ignore(&mut self, what: &str) {

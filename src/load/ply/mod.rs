@@ -63,6 +63,12 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     for what in &layout.ignored {
         loaded.note(Deed::Ignored, vertex_def.count, what.as_str());
     }
+    if !layout.unread.is_empty() {
+        let names = layout.unread.iter().take(8).map(String::as_str).collect::<Vec<_>>().join(", ");
+        let more = if layout.unread.len() > 8 { ", …" } else { "" };
+        let what = format!("fields of vertices ({names}{more})");
+        loaded.note(Deed::Ignored, layout.unread.len() as u64, what);
+    }
     note_other_elements(&mut loaded, &header, vertex_def);
     Ok(loaded)
 }

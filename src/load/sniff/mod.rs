@@ -137,6 +137,7 @@ fn by_magic(bytes: &[u8]) -> Option<Format> {
         [b'L', b'A', b'S', b'F', ..] => Some(Format::Las),
         [b'A', b'S', b'T', b'M', b'-', b'E', b'5', b'7', ..] => Some(Format::E57),
         [b'g', b'l', b'T', b'F', ..] => Some(Format::Gltf),
+        [0xef, 0xbb, 0xbf, rest @ ..] => by_magic(rest).filter(|format| *format == Format::Ply),
         _ => None,
     }
 }

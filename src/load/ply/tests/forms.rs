@@ -105,10 +105,12 @@ fn incomplete_groups_are_left_out_and_noted() {
             "1 value of 'nx' without 'ny' ignored",
             "1 value of 'red' without 'green' ignored",
             "1 value of 'su_x' without 'su_y' ignored",
+            "1 field of vertices (nz) ignored",
         ]
     );
     // One letter may mean anything.
-    assert!(notes(&cloud(&of_type("r confidence s t", "float"), "1 2 3 4 5 6 7\n")).is_empty());
+    let others = notes(&cloud(&of_type("r confidence s t", "float"), "1 2 3 4 5 6 7\n"));
+    assert_eq!(others, ["4 fields of vertices (r, confidence, s, t) ignored"]);
 }
 
 #[test]
@@ -151,7 +153,11 @@ fn other_names_of_the_vertices_and_elements_that_are_read_past() {
     ];
     for file in encodings(header, &elements) {
         assert_eq!(points(&file).positions, [DVec3::new(1.0, 2.0, 3.0)]);
-        assert_eq!(notes(&file), ["3 elements 'edge' and of other unknown names ignored"]);
+        let told = [
+            "2 fields of vertices (near, far) ignored",
+            "3 elements 'edge' and of other unknown names ignored",
+        ];
+        assert_eq!(notes(&file), told);
     }
 }
 
@@ -173,7 +179,13 @@ fn headers_have_comments_anywhere_in_any_encoding_and_names_of_any_letters() {
         property float scalar_Coord._Z[<0.5]\r\nend_header\r\n1 2 3 4\r\n",
     );
     assert_eq!(points(&file).positions, [DVec3::new(1.0, 2.0, 3.0)]);
-    assert!(notes(&file).is_empty());
+    assert_eq!(notes(&file), ["1 field of vertices (scalar_Coord._Z[<0.5]) ignored"]);
+}
+
+#[test]
+fn of_many_fields_the_first_are_told() {
+    let file = cloud(&of_type("a b c d e f g h i", "float"), "1 2 3 0 0 0 0 0 0 0 0 0\n");
+    assert_eq!(notes(&file), ["9 fields of vertices (a, b, c, d, e, f, g, h, …) ignored"]);
 }
 
 #[test]
