@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::fans::Fan;
 use crate::{
     notes::{Deed, Note},
     scene::{Mesh, Points, Splats},
@@ -20,12 +21,21 @@ pub struct Loaded {
     pub metres_per_unit: Option<f64>,
     /// What was done with what the file has, one a kind.
     pub notes: Vec<Note>,
+    /// Polygons of a mesh that are cut as fans.
+    pub(super) fans: Vec<Fan>,
 }
 
 impl Loaded {
     /// A model of which the file tells nothing else.
     pub(super) fn new(model: Model, format: impl Into<String>) -> Self {
-        Self { model, format: format.into(), up: None, metres_per_unit: None, notes: Vec::new() }
+        Self {
+            model,
+            format: format.into(),
+            up: None,
+            metres_per_unit: None,
+            notes: Vec::new(),
+            fans: Vec::new(),
+        }
     }
 
     /// Adds a note where there is something to note.

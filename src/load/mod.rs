@@ -7,6 +7,7 @@ mod beside;
 pub mod builtin;
 #[cfg(feature = "e57")]
 mod e57;
+mod fans;
 mod foreign;
 #[cfg(feature = "gltf")]
 mod gltf;
@@ -142,6 +143,11 @@ fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress)
         unused.into(),
         "choice of columns (--columns, of a file without rows of numbers)",
     );
+    if let Model::Mesh(mesh) = &mut loaded.model {
+        let uncut = fans::cut(mesh, &std::mem::take(&mut loaded.fans));
+        let what = "bends of polygons that cross themselves or have very many corners, drawn as fans,";
+        loaded.note(Deed::Ignored, uncut, what);
+    }
     if let Model::Mesh(mesh) = &mut loaded.model {
         let unused = mesh.drop_unused_vertices();
         loaded.note(Deed::Dropped, unused as u64, "vertices without a face");

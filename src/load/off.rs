@@ -10,6 +10,7 @@ use glam::{DVec3, Vec3};
 
 use super::{
     Input, Limits, Loaded, Model,
+    fans::Fan,
     lines::{Line, Lines, shown},
     shade,
 };
@@ -97,6 +98,7 @@ struct Read {
     normals: Vec<Vec3>,
     colors: Vec<[f32; 4]>,
     triangles: Vec<[u32; 3]>,
+    fans: Vec<Fan>,
     /// Vertices with numbers that have no meaning here.
     longer: u64,
     small_faces: u64,
@@ -149,7 +151,7 @@ impl Read {
         if corners > list_items as u64 {
             return Err(lines.fault(line, format!("{corners} corners; expected at most {list_items}")));
         }
-        let (mut first, mut before) = (0, 0);
+        let (mut first, mut before, begin) = (0, 0, self.triangles.len());
         for i in 0..corners {
             let corner: u64 = lines.number(line, words, "the number of a vertex")?;
             let Some(corner) = u32::try_from(corner).ok().filter(|_| corner < vertices) else {
@@ -167,6 +169,7 @@ impl Read {
         if self.triangles.len() as u64 > faces {
             return Err(lines.fault(line, format!("more than {faces} triangles; expected at most that many")));
         }
+        self.fans.extend(Fan::of(begin, &self.triangles));
         self.small_faces += u64::from(corners < 3);
         self.colored_faces += u64::from(words.next().is_some());
         Ok(())
@@ -204,6 +207,7 @@ impl Read {
             }
         };
         let mut loaded = Loaded::new(model, format!("OFF ({})", shown(name)));
+        loaded.fans = self.fans;
         loaded.note(Deed::Dropped, self.small_faces, "faces with fewer than 3 corners");
         loaded.note(Deed::Clamped, outside, "vertices with a color out of its range");
         loaded.note(

@@ -223,3 +223,29 @@ fn a_choice_of_columns_is_told_where_there_are_none() {
         );
     }
 }
+
+/// A U, whose first corner does not see its other leg.
+#[test]
+fn concave_polygons_are_what_their_corners_enclose() {
+    let corners = [[6, 4], [4, 4], [4, 1], [2, 1], [2, 4], [0, 4], [0, 0], [6, 0]];
+    let rows = |before: &str| corners.map(|[x, y]| format!("{before}{x} {y} 0\n")).concat();
+    let ply = format!(
+        "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 8\nproperty float x\nproperty float y\n\
+        property float z\nend_header\n8 0 1 2 3 4 5 6 7\n{}",
+        rows("")
+    );
+    let obj = format!("f 1 2 3 4 5 6 7 8\n{}", rows("v "));
+    let off = format!("OFF\n8 1 0\n{}8 0 1 2 3 4 5 6 7\n", rows(""));
+    for (name, text) in [("a.ply", ply), ("a.obj", obj), ("a.off", off)] {
+        let loaded = load_bytes(Path::new(name), text.into_bytes(), &LoadOptions::default(), &()).unwrap();
+        let Model::Mesh(mesh) = loaded.model else { panic!("{name}") };
+        let area = |i: usize| {
+            let [a, b, c] = mesh.corners(i).unwrap();
+            (b - a).cross(c - a).z / 2.0
+        };
+        assert_eq!(mesh.triangles.len(), 6, "{name}");
+        assert!((0..6).all(|i| area(i) >= 0.0), "{name}: {:?}", mesh.triangles);
+        assert_eq!((0..6).map(area).sum::<f64>(), 18.0, "{name}");
+        assert!(loaded.notes.is_empty(), "{name}");
+    }
+}

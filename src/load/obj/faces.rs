@@ -10,7 +10,10 @@ use super::{
     materials::Material,
     vertices::Vertices,
 };
-use crate::{error::Result, load::Input};
+use crate::{
+    error::Result,
+    load::{Input, fans::Fan},
+};
 
 /// No color of its own.
 const PLAIN: u32 = 0;
@@ -23,6 +26,7 @@ pub(super) struct Faces<'a> {
     input: &'a Input<'a>,
     file: &'a Vertices,
     pub triangles: Vec<[u32; 3]>,
+    pub fans: Vec<Fan>,
     /// The file's vertex that each one is.
     pub origins: Vec<u32>,
     /// The color of each, as its number in `palette`.
@@ -62,6 +66,7 @@ impl<'a> Faces<'a> {
             input,
             file,
             triangles: Vec::new(),
+            fans: Vec::new(),
             origins: Vec::new(),
             paints: Vec::new(),
             palette: vec![[1.0; 4]],
@@ -158,7 +163,7 @@ impl<'a> Faces<'a> {
         self.counts.unusable_normals += u64::from(row.has_unusable_normal);
         let paint = if self.file.have_colors() { PLAIN } else { row.paint };
         self.counts.overruled += u64::from(paint != row.paint);
-        let mut fan = [NONE; 2];
+        let (mut fan, begin) = ([NONE; 2], self.triangles.len());
         for corner in 0..self.corners.len() {
             let Some(&(vertex, normal)) = self.corners.get(corner) else { break };
             let c = self.copy(vertex, paint);
@@ -176,6 +181,7 @@ impl<'a> Faces<'a> {
                 }
             }
         }
+        self.fans.extend(Fan::of(begin, &self.triangles));
     }
 
     /// The number of the file's vertex with a color.

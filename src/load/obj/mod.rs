@@ -46,7 +46,7 @@ fn nothing(input: &Input<'_>) -> Error {
 }
 
 fn mesh(input: &Input<'_>, file: &Vertices) -> Result<Loaded> {
-    let Faces { triangles, origins, paints, palette, normals, counts, .. } = Faces::read(input, file)?;
+    let Faces { triangles, fans, origins, paints, palette, normals, counts, .. } = Faces::read(input, file)?;
     if triangles.is_empty() {
         return Err(nothing(input));
     }
@@ -74,6 +74,7 @@ fn mesh(input: &Input<'_>, file: &Vertices) -> Result<Loaded> {
         triangles,
     };
     let mut loaded = Loaded::new(Model::Mesh(mesh), "OBJ");
+    loaded.fans = fans;
     loaded.note(Deed::Dropped, left_out, "vertices without a face");
     loaded.note(Deed::Dropped, counts.small, "faces with fewer than 3 corners");
     loaded.note(Deed::Dropped, counts.not_finite, "faces with a coordinate that is not finite");

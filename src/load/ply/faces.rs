@@ -4,7 +4,10 @@ use super::{
     body::{Body, Items},
     schema::{Element, Kind, Scalar},
 };
-use crate::{error::Result, load::Input};
+use crate::{
+    error::Result,
+    load::{Input, fans::Fan},
+};
 
 /// What an element's list of vertex numbers is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,13 +44,14 @@ pub(super) struct Triangles<'a> {
     vertex_count: u64,
     /// Counterclockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
+    pub fans: Vec<Fan>,
     /// Faces with fewer than 3 corners.
     pub small_polygons: u64,
 }
 
 impl<'a> Triangles<'a> {
     pub(super) fn new(input: &'a Input<'a>, vertex_count: u64) -> Self {
-        Self { input, vertex_count, triangles: Vec::new(), small_polygons: 0 }
+        Self { input, vertex_count, triangles: Vec::new(), fans: Vec::new(), small_polygons: 0 }
     }
 
     /// Reads all elements of this kind.
@@ -81,7 +85,7 @@ impl<'a> Triangles<'a> {
             return Err(format!("{} corners; expected at most {most}", items.len()));
         }
         self.small_polygons += u64::from(items.len() < 3);
-        let mut fan: [Option<u32>; 2] = [None; 2];
+        let (mut fan, begin): ([Option<u32>; 2], usize) = ([None; 2], self.triangles.len());
         for index in items {
             let c = self.vertex(index?)?;
             fan = match fan {
@@ -93,6 +97,7 @@ impl<'a> Triangles<'a> {
                 _ => [Some(c), None],
             };
         }
+        self.fans.extend(Fan::of(begin, &self.triangles));
         Ok(())
     }
 

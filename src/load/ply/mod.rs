@@ -19,7 +19,7 @@ mod viewpoint;
 
 use glam::DVec3;
 
-use super::{Input, Loaded, Model};
+use super::{Input, Loaded, Model, fans::Fan};
 use crate::{
     error::Result,
     notes::Deed,
@@ -77,6 +77,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
 struct Read {
     vertices: Vertices,
     triangles: Vec<[u32; 3]>,
+    fans: Vec<Fan>,
     /// Faces with fewer than 3 corners.
     small_polygons: u64,
     viewpoint: Option<DVec3>,
@@ -107,6 +108,7 @@ fn read(input: &Input<'_>, header: &Header, vertex_def: &Element, layout: &Layou
     Ok(Read {
         vertices: vertices.unwrap_or_else(|| Vertices::new(layout, 0)),
         triangles: triangles.triangles,
+        fans: triangles.fans,
         small_polygons: triangles.small_polygons,
         viewpoint,
         with_extra: body.with_extra,
@@ -145,10 +147,11 @@ fn note_other_elements(loaded: &mut Loaded, header: &Header, vertex_def: &Elemen
 }
 
 fn mesh(read: Read, format: String) -> (Loaded, u64) {
-    let Read { vertices, triangles, small_polygons, with_extra, .. } = read;
+    let Read { vertices, triangles, fans, small_polygons, with_extra, .. } = read;
     let (colors, beyond) = colors(vertices.colors);
     let mesh = Mesh { positions: vertices.positions, normals: vertices.normals, colors, triangles };
     let mut loaded = Loaded::new(Model::Mesh(mesh), format);
+    loaded.fans = fans;
     loaded.note(Deed::Dropped, small_polygons, "faces with fewer than 3 corners");
     loaded.note(Deed::Ignored, with_extra, "ends of rows with more values than the header declares");
     (loaded, beyond)

@@ -99,8 +99,14 @@ impl SplatRows {
     pub fn splats(&self, bytes: &[u8]) -> Splats {
         let mut vertices = Vertices::new(&self.layout, bytes.len() / self.stride());
         self.rows.tables(bytes, &mut |table: &Table| vertices.extend(&self.layout, table));
-        let read =
-            Read { vertices, triangles: Vec::new(), small_polygons: 0, viewpoint: None, with_extra: 0 };
+        let read = Read {
+            vertices,
+            triangles: Vec::new(),
+            fans: Vec::new(),
+            small_polygons: 0,
+            viewpoint: None,
+            with_extra: 0,
+        };
         match splats_or_points(read, false, String::new()).0.model {
             Model::Splats { splats, .. } => splats,
             // Its layout has all that makes splats.
