@@ -95,7 +95,7 @@ fn ears(places: &[DVec3]) -> Option<Vec<[usize; 3]>> {
                 let is_other = ear.iter().all(|corner| flat[*corner] != flat[*p]);
                 is_other && turn([a, b, *p]) >= 0.0 && turn([b, c, *p]) >= 0.0 && turn([c, a, *p]) >= 0.0
             };
-            turn(ear) > 0.0 && !left.iter().any(|p| is_within(p))
+            turn(ear) > 0.0 && !left.iter().any(is_within)
         };
         // Or one that has no area: it is of no matter where it goes.
         let is_flat = |i: &usize| turn([at(i + count - 1), at(*i), at(i + 1)]) == 0.0;

@@ -4,6 +4,9 @@ use std::collections::BTreeMap;
 
 use super::{CloudPoint, Key, OFFSET, Octree, SCALE};
 
+/// What points of a node are written as.
+type NodeBytes = fn(&[CloudPoint]) -> Vec<u8>;
+
 impl Octree {
     /// `metadata.json`, `hierarchy.bin` and `octree.bin` of Potree 2.
     pub fn potree(&self, page_levels: i32) -> [Vec<u8>; 3] {
@@ -15,11 +18,7 @@ impl Octree {
         self.potree_files(page_levels, ("BROTLI", packed_node))
     }
 
-    fn potree_files(
-        &self,
-        page_levels: i32,
-        (encoding, node): (&str, fn(&[CloudPoint]) -> Vec<u8>),
-    ) -> [Vec<u8>; 3] {
+    fn potree_files(&self, page_levels: i32, (encoding, node): (&str, NodeBytes)) -> [Vec<u8>; 3] {
         let mut octree = Vec::new();
         let mut places = BTreeMap::new();
         for (key, points) in &self.nodes {
