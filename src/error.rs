@@ -199,10 +199,7 @@ impl fmt::Display for Error {
             ErrorKind::Memory { object, bytes, reason } => {
                 write!(f, "no device memory for '{object}' ({bytes} bytes): {reason}")
             }
-            ErrorKind::NotReady { pipeline } => write!(
-                f,
-                "the pipeline '{pipeline}' was not made ahead: it is by compile_ahead, or where missing ones are made"
-            ),
+            ErrorKind::NotReady { pipeline } => write!(f, "compile_ahead has not made '{pipeline}'"),
             ErrorKind::Graph { pass, resource, reason } => {
                 f.write_str("illegal render graph: ")?;
                 match (pass.is_empty(), resource.is_empty()) {

@@ -22,14 +22,15 @@ impl Fan {
     }
 }
 
-/// Polygons of more corners stay fans: what ears take grows with their square.
-const MOST_CORNERS: usize = 1024;
+/// Looks at corners that all polygons of a file may take, seconds: of one that is made for it ears take the third power of its corners.
+pub(super) const MOST_LOOKS: u64 = 1 << 30;
 
 /// What is taken for no area, as a part of the polygon's: a corner on the line of its neighbors.
 const FLAT: f64 = 1e-9;
 
-/// Cuts polygons by their ears whose fans cover what they do not; tells of how many that can't be done, since they cross themselves or have too many corners.
-pub(super) fn cut(mesh: &mut Mesh, fans: &[Fan]) -> u64 {
+/// Cuts polygons by their ears whose fans cover what they do not; tells of how many that can't be done, since they cross themselves or so many
+/// looks are not enough.
+pub(super) fn cut(mesh: &mut Mesh, fans: &[Fan], mut looks: u64) -> u64 {
     let (mut left, mut corners, mut places) = (0, Vec::new(), Vec::new());
     for fan in fans {
         let range = fan.first as usize..(fan.first + fan.count) as usize;
@@ -42,7 +43,7 @@ pub(super) fn cut(mesh: &mut Mesh, fans: &[Fan]) -> u64 {
         if places.len() != corners.len() || covers_itself(&places) {
             continue;
         }
-        match (places.len() <= MOST_CORNERS).then(|| ears(&places)).flatten() {
+        match ears(&places, &mut looks) {
             Some(ears) => {
                 triangles.iter_mut().zip(ears).for_each(|(triangle, ear)| *triangle = ear.map(|i| corners[i]))
             }
@@ -71,8 +72,8 @@ fn covers_itself(places: &[DVec3]) -> bool {
     })
 }
 
-/// The triangles of a polygon, by its corners' numbers; `None` where none of its corners is an ear.
-fn ears(places: &[DVec3]) -> Option<Vec<[usize; 3]>> {
+/// The triangles of a polygon, by its corners' numbers; `None` where none of its corners is an ear, or not with so many looks.
+fn ears(places: &[DVec3], looks: &mut u64) -> Option<Vec<[usize; 3]>> {
     let normal = area(places).try_normalize()?;
     let along = normal.any_orthonormal_vector();
     let across = normal.cross(along);
@@ -87,7 +88,7 @@ fn ears(places: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     while left.len() > 3 {
         let count = left.len();
         let at = |i: usize| left[i % count];
-        let is_ear = |i: &usize| {
+        let mut is_ear = |i: &usize| {
             let ear = [at(i + count - 1), at(*i), at(i + 1)];
             let [a, b, c] = ear;
             // Not another corner's place, which a hole that is cut open has twice.
@@ -95,11 +96,15 @@ fn ears(places: &[DVec3]) -> Option<Vec<[usize; 3]>> {
                 let is_other = ear.iter().all(|corner| flat[*corner] != flat[*p]);
                 is_other && turn([a, b, *p]) >= 0.0 && turn([b, c, *p]) >= 0.0 && turn([c, a, *p]) >= 0.0
             };
-            turn(ear) > 0.0 && !left.iter().any(is_within)
+            if turn(ear) <= 0.0 || *looks < count as u64 {
+                return false;
+            }
+            *looks -= count as u64;
+            !left.iter().any(is_within)
         };
         // Or one that has no area: it is of no matter where it goes.
         let is_flat = |i: &usize| turn([at(i + count - 1), at(*i), at(i + 1)]) == 0.0;
-        let ear = (0..count).find(is_ear).or_else(|| (0..count).find(is_flat))?;
+        let ear = (0..count).find(&mut is_ear).or_else(|| (0..count).find(is_flat))?;
         found.push([at(ear + count - 1), at(ear), at(ear + 1)]);
         left.remove(ear);
     }
@@ -143,7 +148,7 @@ mod tests {
                         points.reverse();
                     }
                     let (mut mesh, fan) = fan(&plane(&points));
-                    assert_eq!(cut(&mut mesh, &[fan]), 0, "{points:?}");
+                    assert_eq!(cut(&mut mesh, &[fan], MOST_LOOKS), 0, "{points:?}");
                     let [triangles, polygon] = areas(&mesh);
                     assert!((triangles - polygon).abs() < 1e-9, "{points:?}: {triangles} {polygon}");
                     let normal = area(&mesh.positions);
@@ -162,7 +167,7 @@ mod tests {
                 })
                 .collect();
             let (mut mesh, fan) = fan(&star);
-            assert_eq!(cut(&mut mesh, &[fan]), 0);
+            assert_eq!(cut(&mut mesh, &[fan], MOST_LOOKS), 0);
             let [triangles, polygon] = areas(&mesh);
             assert!((triangles - polygon).abs() < 1e-9, "{corners}: {triangles} {polygon}");
         }
@@ -173,17 +178,22 @@ mod tests {
         let square = plane(&[[0, 0], [2, 0], [2, 2], [1, 2], [0, 2]]);
         let (mut mesh, of_square) = fan(&square);
         let before = mesh.triangles.clone();
-        assert_eq!((cut(&mut mesh, &[of_square]), &mesh.triangles), (0, &before));
+        assert_eq!((cut(&mut mesh, &[of_square], MOST_LOOKS), &mesh.triangles), (0, &before));
         for places in [vec![DVec3::ONE; 6], vec![DVec3::NAN; 5], plane(&[[0, 0], [1, 0], [2, 0], [3, 0]])] {
             let (mut mesh, fan) = fan(&places);
             let before = mesh.triangles.clone();
-            assert_eq!((cut(&mut mesh, &[fan]), &mesh.triangles), (0, &before));
+            assert_eq!((cut(&mut mesh, &[fan], MOST_LOOKS), &mesh.triangles), (0, &before));
         }
-        let many: Vec<DVec3> = (0..2 * MOST_CORNERS as i32)
-            .map(|i| DVec3::new(f64::from(i / 2), if i % 2 == 0 { 0.0 } else { f64::from(i % 7) + 1.0 }, 0.0))
-            .collect();
-        let (mut mesh, fan) = fan(&many);
-        assert_eq!(cut(&mut mesh, &[fan]), 1);
-        assert_eq!(cut(&mut Mesh { triangles: Vec::new(), ..mesh }, &[fan]), 0, "no such triangles");
+        let u = plane(&[[6, 4], [4, 4], [4, 1], [2, 1], [2, 4], [0, 4], [0, 0], [6, 0]]);
+        let (mut mesh, fan) = fan(&u);
+        let before = mesh.triangles.clone();
+        assert_eq!((cut(&mut mesh, &[fan], 7), &mesh.triangles), (1, &before), "too few looks for an ear");
+        assert_eq!(cut(&mut mesh, &[fan], MOST_LOOKS), 0);
+        assert_ne!(mesh.triangles, before);
+        assert_eq!(
+            cut(&mut Mesh { triangles: Vec::new(), ..mesh }, &[fan], MOST_LOOKS),
+            0,
+            "no such triangles"
+        );
     }
 }

@@ -144,12 +144,10 @@ fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress)
         "choice of columns (--columns, of a file without rows of numbers)",
     );
     if let Model::Mesh(mesh) = &mut loaded.model {
-        let uncut = fans::cut(mesh, &std::mem::take(&mut loaded.fans));
-        let what = "bends of polygons that cross themselves or have very many corners, drawn as fans,";
-        loaded.note(Deed::Ignored, uncut, what);
-    }
-    if let Model::Mesh(mesh) = &mut loaded.model {
+        let uncut = fans::cut(mesh, &std::mem::take(&mut loaded.fans), fans::MOST_LOOKS);
         let unused = mesh.drop_unused_vertices();
+        let what = "bends of polygons that cross themselves or take too long, drawn as fans,";
+        loaded.note(Deed::Ignored, uncut, what);
         loaded.note(Deed::Dropped, unused as u64, "vertices without a face");
     }
     if let Some(packing) = source.packing {

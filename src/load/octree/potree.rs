@@ -68,7 +68,7 @@ struct Attribute {
 
 /// How its nodes are written.
 pub(super) struct Form {
-    /// Bytes of a point, where it is not compressed.
+    /// Bytes of a point, once it is unpacked.
     pub record_bytes: usize,
     /// Nodes are compressed, one column an attribute.
     pub is_packed: bool,
@@ -185,9 +185,9 @@ impl Form {
                 ("classification", "uint8", 1) => class = place,
                 _ => {}
             }
-            let size = match place {
-                _ if is_packed && position == place => packed_node::POSITION_BYTES,
-                _ if is_packed && color == place => packed_node::COLOR_BYTES,
+            let size = match is_packed {
+                true if position == place => packed_node::POSITION_BYTES,
+                true if color == place => packed_node::COLOR_BYTES,
                 _ => *size,
             };
             at = at.saturating_add(size);
