@@ -48,7 +48,7 @@ pub struct CameraArguments {
     pub target: Option<Target>,
 
     /// The direction that is up: x, y, z, -x, -y, -z, a direction such as 0,0.5,1, or auto: as the files or the scene file say; else z
-    /// where the shape is plainly that of a map, a terrain or a building; else y [default: auto]
+    /// where the shape is plainly that of a map or a terrain, or stands on a floor; else y [default: auto]
     #[arg(long, value_name = "UP", value_parser = up::parse, allow_hyphen_values = true)]
     pub up: Option<Up>,
 
