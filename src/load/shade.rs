@@ -17,23 +17,49 @@ pub(super) fn from_srgb(colors: &[[f32; 3]], scale: f32) -> (Vec<[f32; 4]>, u64)
     (linear, outside as u64)
 }
 
-/// Grays of intensities: black is 0, or the least where it is below 0; white is the largest.
-pub(super) fn gray(intensities: &[f32]) -> Vec<[f32; 4]> {
-    let finite = intensities.par_iter().copied().filter(|value| value.is_finite());
-    let (least, largest) =
-        finite.map(|v| (v, v)).reduce(|| (0.0, 0.0), |a: (f32, f32), b| (a.0.min(b.0), a.1.max(b.1)));
-    gray_within(intensities, [least, largest])
+/// Grays of intensities from black to white, see [`range_of`], and how many are beyond.
+pub(super) fn gray(intensities: &[f32]) -> (Vec<[f32; 4]>, u64) {
+    gray_within(intensities, range_of(intensities))
 }
 
-/// The same of intensities between two.
-pub(super) fn gray_within(intensities: &[f32], [least, largest]: [f32; 2]) -> Vec<[f32; 4]> {
-    let range = if largest > least { largest - least } else { 1.0 };
-    let gray = |value: &f32| {
-        let gray = linear_from_srgb(unit((value - least) / range));
+/// The same of intensities from any black to any white.
+pub(super) fn gray_within<T>(intensities: &[T], [black, white]: [f32; 2]) -> (Vec<[f32; 4]>, u64)
+where
+    T: Copy + Into<f32> + Sync,
+{
+    let range = if white > black { white - black } else { 1.0 };
+    let gray = |value: &T| {
+        let gray = linear_from_srgb(unit(((*value).into() - black) / range));
         [gray, gray, gray, 1.0]
     };
-    intensities.par_iter().map(gray).collect()
+    let is_beyond = |value: &&T| !(black..=white).contains(&(**value).into());
+    let beyond = intensities.par_iter().filter(is_beyond).count();
+    (intensities.par_iter().map(gray).collect(), beyond as u64)
 }
+
+/// What is black and what white among intensities: 0, or the least where it is below 0, and the largest. Where an end is further from the
+/// other 96% than those from each other (a mirror, a mark for no value), the end of those is taken instead.
+pub(super) fn range_of<T>(intensities: &[T]) -> [f32; 2]
+where
+    T: Copy + Into<f32> + Sync,
+{
+    let finite = |value: &T| Some((*value).into()).filter(|value: &f32| value.is_finite());
+    let ends = intensities.par_iter().filter_map(finite).map(|value| [value; 2]);
+    let [least, largest] = ends.reduce(|| [0.0; 2], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    // Of very many, some tell as much.
+    let step = intensities.len() / MOST_SORTED + 1;
+    let mut sorted: Vec<f32> = intensities.iter().step_by(step).filter_map(finite).collect();
+    sorted.sort_unstable_by(f32::total_cmp);
+    let last = sorted.len().saturating_sub(1);
+    let at = |i: usize| sorted.get(i).copied().unwrap_or_default();
+    let [low, high] = [at(last / 50).min(0.0), at(last - last / 50)];
+    let range = high - low;
+    let is_far = |by: f32| range > 0.0 && by > range;
+    [if is_far(low - least) { low } else { least }, if is_far(largest - high) { high } else { largest }]
+}
+
+/// The most intensities of which the usual range is found.
+const MOST_SORTED: usize = 1 << 20;
 
 /// The nearest value from 0 to 1; what is no number is 0.
 pub(super) fn unit(value: f32) -> f32 {
@@ -77,10 +103,28 @@ mod tests {
 
     #[test]
     fn intensities_fill_the_range_from_black_to_white() {
-        let levels = |values: &[f32]| gray(values).iter().map(|c| c[0]).collect::<Vec<_>>();
+        let levels = |values: &[f32]| gray(values).0.iter().map(|c| c[0]).collect::<Vec<_>>();
         let half = linear_from_srgb(0.5);
         assert_eq!(levels(&[0.0, 2048.0, 4096.0, f32::NAN]), [0.0, half, 1.0, 0.0]);
         assert_eq!(levels(&[-2048.0, 0.0, 2048.0]), [0.0, half, 1.0]);
         assert_eq!(levels(&[0.0, 0.0]), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn a_few_intensities_far_from_all_others_don_t_set_the_range() {
+        let ramp = || (0..=2000).map(|i| i as f32);
+        let with = |few: &[f32]| range_of(&ramp().chain(few.iter().copied()).collect::<Vec<f32>>());
+        assert_eq!(with(&[]), [0.0, 2000.0]);
+        assert_eq!(with(&[65_535.0]), [0.0, 1961.0]);
+        assert_eq!(with(&[3000.0, f32::INFINITY]), [0.0, 3000.0], "as far as a bright thing is");
+        assert_eq!(with(&[-9999.0, 65_535.0]), [0.0, 1961.0]);
+        assert_eq!(with(&[-300.0]), [-300.0, 2000.0]);
+        let [mut mirrors, mut dark] = [vec![65_535.0_f32; 100], vec![0.0_f32; 5000]];
+        mirrors.extend(ramp());
+        assert_eq!(range_of(&mirrors), [0.0, 65_535.0], "a twentieth is a part of the scene");
+        dark.push(9.0);
+        assert_eq!(range_of(&dark), [0.0, 9.0]);
+        assert_eq!(gray(&[[0.0, 1.0].repeat(500), vec![500.0]].concat()).1, 1);
+        assert_eq!(range_of::<f32>(&[]), [0.0; 2]);
     }
 }

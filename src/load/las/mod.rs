@@ -75,7 +75,7 @@ fn uncompressed<'a>(input: &Input<'a>, header: &Header) -> Result<Vec<Chunk<'a>>
 /// What was read of a file whose format is called so; without a palette, it is that of all points.
 pub(in crate::load) fn loaded(columns: Columns, palette: Option<Palette>, words: &str) -> Loaded {
     let palette = palette.unwrap_or_else(|| Palette::of(&columns));
-    let (colors, of_colors) = palette.colors(&columns);
+    let (colors, of_colors, beyond) = palette.colors(&columns);
     let points = Points {
         positions: columns.positions,
         normals: None,
@@ -86,6 +86,7 @@ pub(in crate::load) fn loaded(columns: Columns, palette: Option<Palette>, words:
     };
     let mut loaded = Loaded::new(Model::Points(points), format!("{words}{of_colors}"));
     loaded.up = Some(DVec3::Z);
+    loaded.note(Deed::Clamped, beyond, "points with an intensity beyond what is white");
     loaded.note(Deed::Dropped, columns.noise, "points of the classes for noise (7 and 18)");
     loaded.note(Deed::Dropped, columns.withheld, "points that are marked as withheld");
     loaded

@@ -10,8 +10,8 @@ use crate::{load::shade, math::srgb::linear_from_srgb, scene::Colors};
 pub(in crate::load) enum Palette {
     /// There is neither.
     Unknown,
-    /// Intensities up to this one are grays: writers that have no colors leave them 0, or the intensities.
-    Grays(u16),
+    /// Intensities up to this white are grays: writers that have no colors leave them 0, or the intensities.
+    Grays(f32),
     /// The format wants 16 bits; many writers copy 8 into them.
     Bytes,
     Words,
@@ -21,24 +21,23 @@ impl Palette {
     /// That of some points.
     pub fn of(columns: &Columns) -> Self {
         let largest = columns.colors.par_iter().map(|color| color.iter().copied().max().unwrap_or(0)).max();
-        let intensities = || columns.intensities.par_iter().copied().max().unwrap_or(0);
-        match (largest.unwrap_or(0), intensities) {
-            (0, intensities) if intensities() == 0 => Self::Unknown,
-            (0, intensities) => Self::Grays(intensities()),
-            (1..=255, _) => Self::Bytes,
+        match largest.unwrap_or(0) {
+            0 => match shade::range_of(&columns.intensities) {
+                [_, 0.0] => Self::Unknown,
+                [_, white] => Self::Grays(white),
+            },
+            1..=255 => Self::Bytes,
             _ => Self::Words,
         }
     }
 
-    /// Colors, and a word on them for the format.
-    pub fn colors(self, columns: &Columns) -> (Colors, &'static str) {
-        match self {
+    /// Colors, a word on them for the format, and how many are beyond white.
+    pub fn colors(self, columns: &Columns) -> (Colors, &'static str, u64) {
+        let (colors, words) = match self {
             Self::Unknown => (Colors::unknown(), ""),
-            Self::Grays(largest) => {
-                let intensities: Vec<f32> =
-                    columns.intensities.par_iter().map(|value| f32::from(*value)).collect();
-                let grays = shade::gray_within(&intensities, [0.0, f32::from(largest)]);
-                (Colors::Each(grays), ", intensity as gray")
+            Self::Grays(white) => {
+                let (grays, beyond) = shade::gray_within(&columns.intensities, [0.0, white]);
+                return (Colors::Each(grays), ", intensity as gray", beyond);
             }
             Self::Bytes => {
                 let table = shade::Table::new();
@@ -51,7 +50,8 @@ impl Palette {
                 let linear = |value: u16| table.get(usize::from(value)).copied().unwrap_or(1.0);
                 (each(&columns.colors, linear), ", 16-bit colors")
             }
-        }
+        };
+        (colors, words, 0)
     }
 }
 

@@ -78,7 +78,10 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
             let (colors, outside) = shade::from_srgb(&colors, if unit { 1.0 } else { 255.0 });
             (Colors::Each(colors), outside)
         }
-        (false, true) => (Colors::Each(shade::gray(&grays)), 0),
+        (false, true) => {
+            let (grays, outside) = shade::gray(&grays);
+            (Colors::Each(grays), outside)
+        }
         (false, false) => (Colors::unknown(), 0),
     };
     let viewpoints = Viewpoint::of_all(positions.len(), header.viewpoint);

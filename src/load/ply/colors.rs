@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::schema::Scalar;
-use crate::{math::srgb::linear_from_srgb, scene::UNKNOWN_SRGB};
+use crate::{load::shade, math::srgb::linear_from_srgb, scene::UNKNOWN_SRGB};
 
 /// Colors with the numbers of the file; what is white among them shows when all are known.
 pub(super) struct FileColors {
@@ -132,7 +132,15 @@ impl FileColors {
             same.map(|white| white.largest).fold(0.0, f32::max)
         };
         let shared = |white: White| White { largest: of_type(white.scalar), ..white }.value();
-        let full = [shared(red), shared(green), shared(blue), alpha.value()];
+        let [r, g, b] = match (red.meaning, shared(red)) {
+            // Beyond bytes the values themselves have the range.
+            (Meaning::Intensity, white) if white > 255.0 => {
+                let intensities: Vec<f32> = values.par_iter().map(|color| color[0]).collect();
+                [shade::range_of(&intensities)[1]; 3]
+            }
+            _ => [red, green, blue].map(shared),
+        };
+        let full = [r, g, b, alpha.value()];
         let is_signed_byte = white.map(|white| white.scalar == Scalar::Char);
         let beyond = values
             .par_iter_mut()

@@ -41,7 +41,10 @@ fn loaded(rows: Rows, layout: &Layout) -> Loaded {
             let (colors, outside) = shade::from_srgb(&rows.colors, scale);
             (Colors::Each(colors), what, outside)
         }
-        (true, false) => (Colors::Each(shade::gray(&rows.intensities)), ", intensity as gray", 0),
+        (true, false) => {
+            let (grays, outside) = shade::gray(&rows.intensities);
+            (Colors::Each(grays), ", intensity as gray", outside)
+        }
         (true, true) => (Colors::unknown(), "", 0),
     };
     let points = Points {
