@@ -1,4 +1,4 @@
-//! Whether a thing shows one flat side to who looks at it from the front: nothing of its depth is seen from there.
+//! How a thing's surface faces who looks at it: one flat side shows nothing of its depth, and of what is seen edge-on nothing is seen.
 
 use glam::{DVec3, Vec3};
 
@@ -27,9 +27,26 @@ pub fn is_flat_in_front(scene: &Scene, toward_eye: DVec3) -> bool {
             all += seen;
         }
     };
-    scene.objects.iter().for_each(|object| add_splats(&object.splats, &mut add));
-    scene.meshes.iter().for_each(|object| add_triangles(&object.mesh, &mut add));
+    add_all(scene, &mut add);
     all > 0.0 && flat >= SHARE * all
+}
+
+/// The share of a scene's area that an eye far away in a direction would see if nothing hid anything: 1 where all faces it or faces away,
+/// 0 where all is edge-on, and of a scene without area.
+pub fn share_facing(scene: &Scene, toward_eye: DVec3) -> f64 {
+    let [mut seen, mut all] = [0.0; 2];
+    add_all(scene, &mut |normal, area| {
+        if area.is_finite() {
+            seen += area * normal.dot(toward_eye).abs();
+            all += area * normal.length();
+        }
+    });
+    if all > 0.0 { seen / all } else { 0.0 }
+}
+
+fn add_all(scene: &Scene, add: &mut impl FnMut(DVec3, f64)) {
+    scene.objects.iter().for_each(|object| add_splats(&object.splats, add));
+    scene.meshes.iter().for_each(|object| add_triangles(&object.mesh, add));
 }
 
 /// Unit normals, and areas in proportion.
@@ -87,6 +104,20 @@ mod tests {
         }
         let turned = DVec3::new(0.1, 0.0, 1.0).normalize();
         assert!(!is_flat_in_front(&cuboid(flat, true), turned), "by 5.7 degrees");
+    }
+
+    #[test]
+    fn a_plate_has_no_area_for_who_sees_it_edge_on() {
+        let plate = cuboid(DVec3::new(1.0, 1.0, 0.0), false);
+        for (eye, share) in
+            [(DVec3::Z, 1.0), (DVec3::NEG_Z, 1.0), (DVec3::X, 0.0), (DVec3::new(0.8, 0.0, 0.6), 0.6)]
+        {
+            assert!((share_facing(&plate, eye) - share).abs() < 1e-12, "{eye}");
+        }
+        let ball = MeshObject { name: String::new(), mesh: sphere(5), closed: true };
+        let share = share_facing(&Scene { meshes: vec![ball], ..Scene::default() }, DVec3::Z);
+        assert!((share - 0.5).abs() < 0.02, "{share}");
+        assert_eq!(share_facing(&Scene::default(), DVec3::Z), 0.0);
     }
 
     #[test]

@@ -6,8 +6,8 @@ mod clip;
 mod cloud;
 mod creases;
 mod eigen;
+mod facing;
 mod fitness;
-mod flat_front;
 mod flat_splats;
 pub mod hierarchy;
 mod hybrid;
@@ -28,8 +28,8 @@ mod turns;
 mod up;
 
 pub use cloud::{CloudReport, Sides, splats_from_points};
+pub use facing::{is_flat_in_front, share_facing};
 pub use fitness::{Fitness, Suited};
-pub use flat_front::is_flat_in_front;
 pub use hybrid::{
     EDGE_SPACING, Hybrid, HybridOptions, HybridReport, Multiresolution, hybrid, multiresolution,
 };
@@ -40,7 +40,7 @@ pub use seams::{Seam, seams};
 pub use shaded_mesh::{creased_mesh, shaded_mesh};
 pub use spacing::{mean_edge, mean_spacing};
 pub use surface::MeshReport;
-pub use up::{FoundUp, may_lie_on_its_back, up_of_shape};
+pub use up::{FoundUp, up_of_shape};
 
 use glam::DVec3;
 

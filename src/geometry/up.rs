@@ -1,16 +1,16 @@
 //! The direction that is up, told from a scene's shape: for scans whose files don't say it.
 //!
 //! Most models have +y up, and most maps and scans +z; a wrong guess of the one is no better than a wrong guess of the other. So
-//! +z is taken only where the shape is hardly anything else, and nothing is said of other directions. What is closed is a
-//! thing, not a place, and left out. The rules, of which one has to hold for at least [`FEWEST`] splats or triangles:
+//! +z or +y is told only where the shape is hardly anything else, and nothing of other directions. What is closed is a
+//! thing, not a place, and left out. The rules, of which one has to hold of one of the two for at least [`FEWEST`] splats or triangles:
 //!
-//! 1. **A place on a map**: x and y are large against the scene's own size, as easting and northing are, and z, a height, is not.
-//! 2. **A terrain**: at least 4 times as long along x and along y as along z, but no plane, and 90% of its area slopes by less
+//! 1. **A place on a map**, for +z: x and y are large against the scene's own size, as easting and northing are, and z, a height, is not.
+//! 2. **A terrain**: at least 4 times as long along the other two axes as along this one, but no plane, and 90% of its area slopes by less
 //!    than 60° against the ground. A relief of a plaque looks the same, and is then seen obliquely.
-//! 3. **Something on the ground**: a floor at the bottom along z, level within 20°, below 60% of the box's area, 10% of all area or more;
-//!    what stands on it covers less than half of that in its upper half and less than a quarter of the rim, and 15% of all area is within
-//!    20° of upright. A medal has the floor, but no walls; a room has walls at the rim, and so has a stage that is seen from the front, whose
-//!    back is no floor.
+//! 3. **Something on the ground**: a floor at the bottom along the axis, level within 20°, below 60% of the box's area, 10% of all area or
+//!    more; what stands on it covers less than half of that in its upper half and less than a quarter of the rim, and 15% of all area is
+//!    within 20° of upright. A medal has the floor, but no walls; a room has walls at the rim, and so has a stage that is seen from the
+//!    front, whose back is no floor.
 
 use glam::{DVec3, Vec3};
 
@@ -34,52 +34,58 @@ pub struct FoundUp {
 /// A splat or triangle.
 struct Piece {
     place: DVec3,
-    /// Of the unit normal along z and along y, without sign.
+    /// Of the unit normal along z, without sign.
     upright: f64,
-    flat_along_y: f64,
+    /// The same along y.
+    upright_in_y: f64,
     area: f64,
 }
 
-/// Whether nothing of a scene's shape tells what is up, and yet it may well be +z: as in a room, which is lower along z than it is wide, with a level floor
-/// at the bottom along z that covers 60% of its box and is larger than what is at the bottom along y, and walls.
-pub fn may_lie_on_its_back(scene: &Scene) -> bool {
-    let Some((pieces, bounds)) = open_pieces(scene) else { return false };
-    let extent = bounds.max - bounds.min;
-    if extent.min_element() <= 0.0 || extent.z >= extent.x.min(extent.y) {
-        return false;
+impl Piece {
+    /// Turned about x, so that what was along y is along z.
+    fn with_y_as_z(&self) -> Self {
+        let DVec3 { x, y, z } = self.place;
+        let place = DVec3::new(x, -z, y);
+        Self { place, upright: self.upright_in_y, upright_in_y: self.upright, area: self.area }
     }
-    let is_floor = |piece: &Piece| is_floor(piece, &bounds);
-    let floor = cells_of(&pieces, &bounds, &is_floor).iter().filter(|cell| **cell).count();
-    let is_at_front =
-        |piece: &Piece| piece.flat_along_y > LEVEL && piece.place.y - bounds.min.y < LOW * extent.y;
-    10 * floor >= 6 * CELLS * CELLS
-        && share(&pieces, is_floor) >= 0.1_f64.max(share(&pieces, is_at_front))
-        && share(&pieces, |piece| piece.upright < UPRIGHT) >= 0.15
 }
 
-/// +z, where the scene's shape tells that it is up; `None` where it tells nothing.
+/// +z or +y, where the scene's shape tells that it is up; `None` where it tells nothing.
 pub fn up_of_shape(scene: &Scene) -> Option<FoundUp> {
-    let (pieces, bounds) = open_pieces(scene)?;
-    let because = match () {
-        () if is_on_a_map(&bounds) => "its x and y are those of a map",
-        () if is_terrain(&pieces, &bounds) => "it lies flat as ground does",
-        () if stands_on_ground(&pieces, &bounds) => "it stands on a floor",
-        () => return None,
+    let pieces = open_pieces(scene)?;
+    let bounds = bounds_of(&pieces)?;
+    let along_z =
+        if is_on_a_map(&bounds) { Some("its x and y are those of a map") } else { shape_of(&pieces) };
+    let turned: Vec<Piece> = pieces.iter().map(Piece::with_y_as_z).collect();
+    let (direction, because) = match (along_z, shape_of(&turned)) {
+        (Some(because), None) => (DVec3::Z, because),
+        (None, Some(because)) => (DVec3::Y, because),
+        _ => return None,
     };
-    Some(FoundUp { direction: DVec3::Z, because: because.to_owned() })
+    Some(FoundUp { direction, because: because.to_owned() })
 }
 
-/// What is not closed, and its bounds; `None` where it is too few.
-fn open_pieces(scene: &Scene) -> Option<(Vec<Piece>, Bounds)> {
+/// What tells that z is up.
+fn shape_of(pieces: &[Piece]) -> Option<&'static str> {
+    let bounds = bounds_of(pieces)?;
+    match () {
+        () if is_terrain(pieces, &bounds) => Some("it lies flat as ground does"),
+        () if stands_on_ground(pieces, &bounds) => Some("it stands on a floor"),
+        () => None,
+    }
+}
+
+/// What is not closed; `None` where it is too few.
+fn open_pieces(scene: &Scene) -> Option<Vec<Piece>> {
     let splats = scene.objects.iter().filter(|object| !object.closed);
     let meshes = scene.meshes.iter().filter(|object| !object.closed);
     let mut pieces: Vec<Piece> = splats.flat_map(|object| pieces_of_splats(&object.splats)).collect();
     pieces.extend(meshes.flat_map(|object| pieces_of_mesh(&object.mesh)));
-    if pieces.len() < FEWEST {
-        return None;
-    }
-    let bounds = pieces.iter().map(|piece| Bounds::of_ball(piece.place, 0.0)).reduce(Bounds::union)?;
-    Some((pieces, bounds))
+    (pieces.len() >= FEWEST).then_some(pieces)
+}
+
+fn bounds_of(pieces: &[Piece]) -> Option<Bounds> {
+    pieces.iter().map(|piece| Bounds::of_ball(piece.place, 0.0)).reduce(Bounds::union)
 }
 
 fn pieces_of_splats(splats: &Splats) -> Vec<Piece> {
@@ -95,7 +101,7 @@ fn pieces_of_splats(splats: &Splats) -> Vec<Piece> {
         usable.then(|| Piece {
             place: *place,
             upright: f64::from(normal.z.abs()),
-            flat_along_y: f64::from(normal.y.abs()),
+            upright_in_y: f64::from(normal.y.abs()),
             area,
         })
     };
@@ -108,7 +114,7 @@ fn pieces_of_mesh(mesh: &Mesh) -> Vec<Piece> {
         let normal = (b - a).cross(c - a);
         let unit = normal.try_normalize()?.abs();
         let place = (a + b + c) / 3.0;
-        Some(Piece { place, upright: unit.z, flat_along_y: unit.y, area: 0.5 * normal.length() })
+        Some(Piece { place, upright: unit.z, upright_in_y: unit.y, area: 0.5 * normal.length() })
     };
     (0..mesh.triangles.len()).filter_map(piece).collect()
 }

@@ -127,7 +127,12 @@ impl CameraParts {
     /// These parts with an eye at a corner: from the front, and 30° to the right and 20° above it.
     #[must_use]
     pub fn from_corner(self) -> Self {
-        let [azimuth, elevation] = CORNER_RAD;
+        self.from_angles(CORNER_RAD)
+    }
+
+    /// These parts with an eye at an azimuth and an elevation in radians.
+    #[must_use]
+    pub fn from_angles(self, [azimuth, elevation]: [f64; 2]) -> Self {
         Self { azimuth_rad: Some(azimuth), elevation_rad: Some(elevation), ..self }
     }
 

@@ -165,23 +165,47 @@ fn options_that_a_scene_file_has_keys_for_are_not_ignored_in_silence() {
 }
 
 #[test]
-fn a_room_that_may_lie_on_its_back_is_doubted() {
+fn what_may_lie_on_its_back_is_doubted() {
     let folder = Folder::new();
     let walls = grid(41, 0.0)
         .filter(|[_, z, _]| *z > 0.0 && *z < 12.0)
         .flat_map(|[along, z, _]| [[along, 0.0, z], [along, 40.0, z], [0.0, along, z], [40.0, along, z]]);
     let room: Vec<[f64; 3]> = grid(41, 0.0).chain(grid(41, 12.0)).chain(walls).collect();
     folder.write("room.xyz", rows(room.iter().copied()));
-    folder.write("y.xyz", rows(room.iter().map(|[x, y, z]| [*x, *z, -y])));
+    folder.write("cube.obj", CUBE);
+    folder.write("eye.toml", "[[object]]\nfile = \"cube.obj\"\n[camera]\neye = [3, 2, 5]\n");
     let doubt = "up is +y, since nothing says otherwise; --up z if it lies on its back\n";
     for (words, doubted) in [
         (&["room.xyz"][..], 1),
         (&["room.xyz", "--up", "z"], 0),
         (&["room.xyz", "--up", "y"], 0),
-        (&["y.xyz"], 0),
+        (&["cube.obj"], 1),
+        (&["eye.toml"], 0),
+        (&[], 0),
     ] {
         let run = done(&folder, &[&["render"], words, &SIZE].concat());
         assert_eq!(run.stderr.matches(doubt).count(), doubted, "{words:?}: {}", run.stderr);
+    }
+}
+
+#[test]
+fn what_is_edge_on_from_the_front_is_seen_from_beside() {
+    let folder = Folder::new();
+    for (name, place, from) in [
+        ("ground", (|[x, y, _]| [x, 0.0, y]) as fn([f64; 3]) -> [f64; 3], "above"),
+        ("wall", |[x, y, _]| [0.0, x, y], "the right"),
+        ("slanted", |[x, y, _]| [x, y, -x], "above"),
+        ("front", |place| place, ""),
+    ] {
+        let file = format!("{name}.xyz");
+        folder.write(&file, rows(grid(41, 0.0).map(place)));
+        let run = done(&folder, &[&["render", &file], &SIZE[..]].concat());
+        let told = format!("seen from {from}, because from the front it is edge-on; --view front if not\n");
+        let is_told = name != "front" && name != "slanted";
+        assert_eq!(run.stderr.contains(&told), is_told, "{name}: {}", run.stderr);
+        assert!(!run.stderr.contains("nothing is seen"), "{name}: {}", run.stderr);
+        let front = done(&folder, &[&["render", &file, "--view", "front"], &SIZE[..]].concat());
+        assert!(!front.stderr.contains("seen from"), "{name}: {}", front.stderr);
     }
 }
 

@@ -69,17 +69,13 @@ pub fn tell_another(asked: DVec3, taken: DVec3) {
     console::say(&format!("the view is along {asked}; up in the picture is {taken}"));
 }
 
-/// Tells that nothing was found of what may well have z up.
-pub fn doubt() {
-    console::say("up is +y, since nothing says otherwise; --up z if it lies on its back");
-}
-
-/// Tells what was found, unless it is what would be taken anyway.
-pub fn tell(found: &FoundUp) {
-    if found.direction.distance(DVec3::Y) > 1e-9 {
-        let (direction, because) = (word(found.direction), &found.because);
-        console::say(&format!("up is {direction}, because {because}; --up y if not"));
-    }
+/// Tells what was found, or that nothing was, of what may as well have z up.
+pub fn tell(found: Option<&FoundUp>) {
+    let Some(FoundUp { direction, because }) = found else {
+        return console::say("up is +y, since nothing says otherwise; --up z if it lies on its back");
+    };
+    let other = if direction.distance(DVec3::Y) < 1e-9 { "z" } else { "y" };
+    console::say(&format!("up is {}, because {because}; --up {other} if not", word(*direction)));
 }
 
 #[cfg(test)]

@@ -8,9 +8,9 @@ mod words;
 use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Result,
-    geometry::{is_flat_in_front, may_lie_on_its_back},
+    geometry::{is_flat_in_front, share_facing},
     load::file_name,
-    scene::{Ball, Camera, CameraParts, PictureHeight, View},
+    scene::{Ball, Camera, CameraParts, PictureHeight, Scene, View, toward_eye},
 };
 
 pub use arguments::{CameraArguments, Target};
@@ -136,15 +136,39 @@ const MOST_NAMES: usize = 8;
 fn as_shaped(parts: CameraParts, loaded: &Loaded) -> CameraParts {
     let up = found_up(parts, loaded);
     let parts = CameraParts { up: parts.up.or(up), ..parts };
-    match parts.front() {
-        Some(front) if is_flat_in_front(&loaded.scene, front) => {
-            console::say("seen from a corner, because its front is one flat side; --view front if not");
-            parts.from_corner()
-        }
-        _ if up.is_some() => parts.from_above(loaded.extent()),
-        _ => parts,
+    let Some(front) = parts.front() else { return parts };
+    if is_flat_in_front(&loaded.scene, front) {
+        console::say("seen from a corner, because its front is one flat side; --view front if not");
+        return parts.from_corner();
     }
+    if let Some((words, seen)) = beside_its_edge(parts, front, &loaded.scene) {
+        console::say(&format!(
+            "seen from {words}, because from the front it is edge-on; --view front if not"
+        ));
+        return seen;
+    }
+    if up.is_some() { parts.from_above(loaded.extent()) } else { parts }
 }
+
+/// From above, the right or the left, what is edge-on from the front.
+fn beside_its_edge(parts: CameraParts, front: DVec3, scene: &Scene) -> Option<(&'static str, CameraParts)> {
+    let edge_on = share_facing(scene, front);
+    if edge_on > EDGE_ON {
+        return None;
+    }
+    let sides = [("above", [0.0, 30.0]), ("the right", [60.0, 20.0]), ("the left", [-60.0, 20.0])].map(
+        |(words, angles)| {
+            let angles_rad = angles.map(f64::to_radians);
+            let share = share_facing(scene, toward_eye(parts.up, angles_rad)[0]);
+            (share, words, parts.from_angles(angles_rad))
+        },
+    );
+    let best = sides.into_iter().reduce(|best, side| if side.0 > best.0 + 1e-6 { side } else { best });
+    best.filter(|(share, ..)| *share > 2.0 * EDGE_ON).map(|(_, words, seen)| (words, seen))
+}
+
+/// The share of all area that is seen, up to which a scene is edge-on.
+const EDGE_ON: f64 = 0.1;
 
 /// The direction that files or shapes tell to be up, where none is given. An eye that is given and looks along it has no use for it.
 fn found_up(parts: CameraParts, loaded: &Loaded) -> Option<DVec3> {
@@ -153,14 +177,14 @@ fn found_up(parts: CameraParts, loaded: &Loaded) -> Option<DVec3> {
     }
     let Some(found) = loaded.up.as_ref() else {
         let is_of_a_file = loaded.inputs.iter().any(|input| input.model.is_some());
-        if is_of_a_file && may_lie_on_its_back(&loaded.scene) {
-            up::doubt();
+        if is_of_a_file && loaded.camera.is_none() {
+            up::tell(None);
         }
         return None;
     };
     let with = CameraParts { up: Some(found.direction), ..parts };
     with.camera(&loaded.ball, [1, 1]).ok()?;
-    up::tell(found);
+    up::tell(Some(found));
     Some(found.direction)
 }
 
@@ -168,10 +192,7 @@ fn found_up(parts: CameraParts, loaded: &Loaded) -> Option<DVec3> {
 mod tests {
     use std::path::PathBuf;
 
-    use surfel::{
-        load::PictureDescription,
-        scene::{Ball, Scene},
-    };
+    use surfel::{load::PictureDescription, scene::Ball};
 
     use super::*;
 
