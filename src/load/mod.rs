@@ -20,6 +20,7 @@ mod lines;
 mod loaded;
 #[cfg(test)]
 mod mutate;
+mod number;
 mod obj;
 #[cfg(feature = "octrees")]
 mod octree;

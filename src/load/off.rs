@@ -1,7 +1,7 @@
 //! OFF files, as Geomview wrote them first: text; vertices with normals and colors or without, then polygons.
 //!
 //! The letters before `OFF` say what a vertex has: `N` a normal, `C` a color of three or four numbers, `ST` texture
-//! coordinates, which are not read, `4` a fourth coordinate, by which the others are divided.
+//! coordinates, which are not read, `4` a fourth coordinate, by which the others are divided. The word may be left out.
 
 #[cfg(test)]
 mod tests;
@@ -32,16 +32,16 @@ struct Kind {
 pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     let mut lines = Lines::new(input, Some(b'#'));
     let first = lines.expect("OFF")?;
-    let mut words = first.words();
-    let name = words.next().unwrap_or_default();
-    let kind = kind(name).map_err(|problem| lines.fault(first, problem))?;
-    if first.words().nth(1) == Some(b"BINARY") {
+    let is_number = |word: &[u8]| word.iter().all(u8::is_ascii_digit);
+    let name = first.words().next().filter(|word| !is_number(word));
+    let kind = kind(name.unwrap_or(b"OFF")).map_err(|problem| lines.fault(first, problem))?;
+    if first.words().nth(1).is_some_and(|word| word.eq_ignore_ascii_case(b"BINARY")) {
         return Err(lines.fault(first, "a binary OFF file; expected one of text"));
     }
     // The counts may stand behind the name.
-    let mut words: Box<dyn Iterator<Item = &[u8]>> = Box::new(words);
+    let mut words: Box<dyn Iterator<Item = &[u8]>> = Box::new(first.words().skip(usize::from(name.is_some())));
     let mut place = first;
-    if first.words().nth(1).is_none() {
+    if name.is_some() && first.words().nth(1).is_none() {
         place = lines.expect("the numbers of vertices and faces")?;
         words = Box::new(place.words());
     }
@@ -65,13 +65,13 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
         read.face(&lines, line, vertices, &input.options.limits)?;
     }
     read.rest = u64::from(lines.next()?.is_some());
-    Ok(read.loaded(name, kind))
+    Ok(read.loaded(name.unwrap_or(b"without its word"), kind))
 }
 
 /// What the letters before `OFF` say.
 fn kind(name: &[u8]) -> Result<Kind, String> {
     let mut kind = Kind { normal: false, color: false, texture: false, divisor: false };
-    let Some(mut letters) = name.strip_suffix(b"OFF") else {
+    let Some(mut letters) = name.strip_suffix(b"OFF").or(name.strip_suffix(b"off")) else {
         return Err(format!("'{}'; expected OFF", shown(name)));
     };
     let mut take = |letter: &[u8]| match letters.strip_prefix(letter) {

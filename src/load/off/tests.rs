@@ -33,6 +33,15 @@ fn polygons_are_fans_and_positions_stay_f64() {
 }
 
 #[test]
+fn the_word_may_be_small_or_left_out() {
+    for word in ["off", "OFF", ""] {
+        let text = SQUARE.replacen("OFF", word, 1);
+        assert_eq!(mesh(&text).triangles.len(), 2, "{word}");
+    }
+    assert_eq!(load("3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").format, "OFF (without its word)");
+}
+
+#[test]
 fn vertices_have_what_the_letters_say() {
     let text = "STCN4OFF 3 1 0\n2 4 6 2 0 0 1 255 0 51 0 .5 .5\n1 0 0 1 0 0 1 255 0 51 51 0 0\n0 1 0 1 0 0 1 0 0 0 255 1 1\n\
         3 0 1 2\n";

@@ -10,6 +10,7 @@ use crate::{
     load::{
         Input,
         lines::{Lines, shown},
+        number,
     },
 };
 
@@ -168,7 +169,7 @@ fn each_of_text<const N: usize>(
 }
 
 fn word_number(word: &[u8]) -> Option<f64> {
-    str::from_utf8(word).ok()?.parse().ok()
+    number::read(str::from_utf8(word).ok()?)
 }
 
 /// The bits of a color: as a whole number, or as a float that has them.

@@ -63,6 +63,8 @@ impl White {
             _ if self.largest <= 65_535.0 => 65_535.0,
             (_, Scalar::Int) => i32::MAX as f32,
             (_, Scalar::UInt) => u32::MAX as f32,
+            (_, Scalar::Long) => i64::MAX as f32,
+            (_, Scalar::ULong) => u64::MAX as f32,
             _ => self.largest,
         }
     }

@@ -20,11 +20,12 @@ pub(super) enum Corners {
 
 /// The list of corners, if this element is a `face` or `tristrips`.
 pub(super) fn corners(input: &Input<'_>, def: &Element) -> Result<Option<Corners>> {
-    if !matches!(def.name.as_str(), "face" | "faces" | "tristrips") || def.count == 0 {
+    if !def.is_named(&["face", "faces", "tristrips"]) || def.count == 0 {
         return Ok(None);
     }
     let refuse = |problem: &str| Err(input.fault(format!("element {}", def.name), problem));
-    let is_list = |name: &str| matches!(name, "vertex_indices" | "vertex_index");
+    let is_list =
+        |name: &str| ["vertex_indices", "vertex_index"].iter().any(|own| name.eq_ignore_ascii_case(own));
     let mut lists = def.properties.iter().enumerate().filter(|(_, p)| is_list(&p.name));
     let (Some((list, property)), None) = (lists.next(), lists.next()) else {
         return refuse("expected one list named vertex_indices or vertex_index");
@@ -33,7 +34,7 @@ pub(super) fn corners(input: &Input<'_>, def: &Element) -> Result<Option<Corners
         Kind::List { item: Scalar::Float | Scalar::Double, .. } | Kind::One(_) => {
             refuse(&format!("'{}' must be a list of an integer type", property.name))
         }
-        Kind::List { .. } if def.name == "tristrips" => Ok(Some(Corners::Strips { list })),
+        Kind::List { .. } if def.is_named(&["tristrips"]) => Ok(Some(Corners::Strips { list })),
         Kind::List { .. } => Ok(Some(Corners::Polygon { list })),
     }
 }

@@ -203,7 +203,7 @@ impl Statements {
 fn scalar(word: &str) -> Result<Scalar, String> {
     Scalar::named(word).ok_or_else(|| {
         format!(
-            "type '{}'; expected char, uchar, short, ushort, int, uint, float or double",
+            "type '{}'; expected char, uchar, short, ushort, int, uint, int64, uint64, float or double",
             shown(word.as_bytes())
         )
     })

@@ -51,6 +51,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     }
     input.step(input.bytes.len());
     let words = header.encoding.words();
+    let behind = read.behind;
     let (mut loaded, beyond) = match (is_mesh, layout.gaussian) {
         (true, _) => mesh(read, words.to_owned()),
         (false, None) => splats_or_points(read, header.closed, words.to_owned()),
@@ -70,6 +71,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
         loaded.note(Deed::Ignored, layout.unread.len() as u64, what);
     }
     note_other_elements(&mut loaded, &header, vertex_def);
+    loaded.note(Deed::Ignored, behind, "bytes behind the last element of the header");
     Ok(loaded)
 }
 
@@ -83,6 +85,8 @@ struct Read {
     viewpoint: Option<DVec3>,
     /// Rows with more values than the header declares.
     with_extra: u64,
+    /// Bytes behind the last element.
+    behind: u64,
 }
 
 fn read(input: &Input<'_>, header: &Header, vertex_def: &Element, layout: &Layout) -> Result<Read> {
@@ -112,23 +116,22 @@ fn read(input: &Input<'_>, header: &Header, vertex_def: &Element, layout: &Layou
         small_polygons: triangles.small_polygons,
         viewpoint,
         with_extra: body.with_extra,
+        behind: body.left(),
     })
 }
 
 /// The element that has the vertices; another name than `vertex` counts where only one such element has positions.
 fn vertex_element(header: &Header) -> Option<&Element> {
     let has_positions = |def: &Element| ["x", "y", "z"].iter().all(|name| def.scalar(name).is_some());
-    let is_other = |name: &str| matches!(name, "vertices" | "point" | "points");
-    let exact = header.elements.iter().find(|def| def.name == "vertex");
-    let mut others = header.elements.iter().filter(|def| is_other(&def.name) && has_positions(def));
+    let exact = header.elements.iter().find(|def| def.is_named(&["vertex"]));
+    let mut others = header.elements.iter().filter(|def| def.is_named(&["vertices", "point", "points"]) && has_positions(def));
     exact.or_else(|| others.next().filter(|_| others.next().is_none()))
 }
 
 /// Tells which elements were read past, and which properties of faces.
 fn note_other_elements(loaded: &mut Loaded, header: &Header, vertex_def: &Element) {
     let is_known = |def: &Element| {
-        std::ptr::eq(def, vertex_def)
-            || matches!(def.name.as_str(), "face" | "faces" | "tristrips" | "camera")
+        std::ptr::eq(def, vertex_def) || def.is_named(&["face", "faces", "tristrips", "camera"])
     };
     let others = || header.elements.iter().filter(|def| !is_known(def) && def.count > 0);
     if let Some(first) = others().next() {
@@ -139,7 +142,7 @@ fn note_other_elements(loaded: &mut Loaded, header: &Header, vertex_def: &Elemen
         };
         loaded.note(Deed::Ignored, count, what);
     }
-    for def in header.elements.iter().filter(|def| matches!(def.name.as_str(), "face" | "faces")) {
+    for def in header.elements.iter().filter(|def| def.is_named(&["face", "faces"])) {
         if def.scalar("red").is_some() {
             loaded.note(Deed::Ignored, def.count, "colors of faces");
         }

@@ -106,6 +106,7 @@ impl SplatRows {
             small_polygons: 0,
             viewpoint: None,
             with_extra: 0,
+            behind: 0,
         };
         match splats_or_points(read, false, String::new()).0.model {
             Model::Splats { splats, .. } => splats,

@@ -31,7 +31,7 @@ impl Encoding {
     }
 }
 
-/// The type of a value; each fits an `f64` without loss.
+/// The type of a value; each fits an `f64` without loss, but for integers beyond 2^53.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scalar {
     Char,
@@ -40,19 +40,24 @@ pub(super) enum Scalar {
     UShort,
     Int,
     UInt,
+    Long,
+    ULong,
     Float,
     Double,
 }
 
 impl Scalar {
     pub(super) fn named(word: &str) -> Option<Self> {
-        Some(match word {
+        Some(match word.to_ascii_lowercase().as_str() {
             "char" | "int8" => Self::Char,
             "uchar" | "uint8" => Self::UChar,
             "short" | "int16" => Self::Short,
             "ushort" | "uint16" => Self::UShort,
             "int" | "int32" => Self::Int,
             "uint" | "uint32" => Self::UInt,
+            // Two that the format does not have.
+            "long" | "int64" => Self::Long,
+            "ulong" | "uint64" => Self::ULong,
             "float" | "float32" => Self::Float,
             "double" | "float64" => Self::Double,
             _ => return None,
@@ -68,6 +73,8 @@ impl Scalar {
             Self::UShort => "ushort",
             Self::Int => "int",
             Self::UInt => "uint",
+            Self::Long => "int64",
+            Self::ULong => "uint64",
             Self::Float => "float",
             Self::Double => "double",
         }
@@ -79,12 +86,12 @@ impl Scalar {
             Self::Char | Self::UChar => 1,
             Self::Short | Self::UShort => 2,
             Self::Int | Self::UInt | Self::Float => 4,
-            Self::Double => 8,
+            Self::Long | Self::ULong | Self::Double => 8,
         }
     }
 
     /// The least and the largest value of an integer type.
-    pub(super) fn range(self) -> Option<(i64, i64)> {
+    pub(super) fn range(self) -> Option<(i128, i128)> {
         Some(match self {
             Self::Char => (i8::MIN.into(), i8::MAX.into()),
             Self::UChar => (0, u8::MAX.into()),
@@ -92,6 +99,8 @@ impl Scalar {
             Self::UShort => (0, u16::MAX.into()),
             Self::Int => (i32::MIN.into(), i32::MAX.into()),
             Self::UInt => (0, u32::MAX.into()),
+            Self::Long => (i64::MIN.into(), i64::MAX.into()),
+            Self::ULong => (0, u64::MAX.into()),
             Self::Float | Self::Double => return None,
         })
     }
@@ -122,9 +131,17 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// The number of the property of this name that is one value.
+    /// Whether it has one of these names, in any letters.
+    pub(super) fn is_named(&self, names: &[&str]) -> bool {
+        names.iter().any(|name| self.name.eq_ignore_ascii_case(name))
+    }
+
+    /// The number of the property of this name that is one value; without such, of this name in any letters.
     pub(super) fn scalar(&self, name: &str) -> Option<usize> {
-        self.properties.iter().position(|p| p.name == name && matches!(p.kind, Kind::One(_)))
+        let find = |is_named: &dyn Fn(&str) -> bool| {
+            self.properties.iter().position(|p| is_named(&p.name) && matches!(p.kind, Kind::One(_)))
+        };
+        find(&|own| own == name).or_else(|| find(&|own| own.eq_ignore_ascii_case(name)))
     }
 
     /// The fewest bytes that one element can take, its lists empty.

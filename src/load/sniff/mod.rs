@@ -8,6 +8,7 @@ mod words;
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use super::stl::is_text;
 use foreign::foreign;
 pub(super) use words::without_mark;
 
@@ -110,6 +111,8 @@ pub(super) fn format(path: &Path, name: &Path, bytes: &[u8]) -> Result<Format> {
         });
     }
     match (words, extension.as_str()) {
+        // Its first word may be left out.
+        (Some(Format::Rows) | None, "off") => Ok(Format::Off),
         (Some(format), _) => Ok(format),
         (None, "toml") => refuse("this is a scene file"),
         (None, "obj") => Ok(Format::Obj),
@@ -150,8 +153,7 @@ fn is_binary_stl(bytes: &[u8], named: bool) -> bool {
         return false;
     };
     let size = 84 + 50 * u64::from(count);
-    let is_text = bytes.trim_ascii_start().starts_with(b"solid");
-    bytes.len() as u64 == size || (named && !is_text && count > 0 && bytes.len() as u64 > size)
+    bytes.len() as u64 == size || (named && !is_text(bytes) && count > 0 && bytes.len() as u64 > size)
 }
 
 /// Whether this may be JSON: an object or a list, that no scene file starts with.

@@ -20,7 +20,9 @@ pub(super) fn by_words(probe: &[u8]) -> Option<Format> {
     if text.starts_with(b"{") {
         return contains(text, b"\"asset\"").then_some(Format::Gltf);
     }
-    if text.starts_with(b"solid") && (contains(text, b"facet") || contains(text, b"endsolid")) {
+    let is_solid = text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    let lower = || text.to_ascii_lowercase();
+    if is_solid && (contains(&lower(), b"facet") || contains(&lower(), b"endsolid")) {
         return Some(Format::Stl);
     }
     let mut lines = text.split(|&b| b == b'\n' || b == b'\r').map(<[u8]>::trim_ascii);
@@ -50,6 +52,7 @@ pub(in crate::load) fn without_mark(bytes: &[u8]) -> &[u8] {
 /// `OFF`, and before it what vertices have: texture coordinates, colors, normals, a fourth coordinate, their number.
 fn is_off(word: &[u8]) -> bool {
     word.strip_suffix(b"OFF")
+        .or(word.strip_suffix(b"off"))
         .is_some_and(|prefix| prefix.len() <= 6 && prefix.iter().all(|b| b"STCN4n".contains(b)))
 }
 

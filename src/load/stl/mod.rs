@@ -1,7 +1,7 @@
 //! STL files: triangles, binary or text. Corners at exactly the same place become one vertex.
 //!
 //! The normals of facets are not read: they follow from the corners. Binary files that start with `solid`, as some
-//! writers make them, are told from text by their size.
+//! writers make them, are told from text by their size, and by the zeros in their numbers.
 
 #[cfg(test)]
 mod tests;
@@ -22,7 +22,7 @@ const HEADER_BYTES: usize = 80;
 const RECORD_BYTES: usize = 50;
 
 pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
-    let is_text = input.bytes.trim_ascii_start().starts_with(b"solid");
+    let is_text = is_text(input.bytes);
     match records(input).filter(|records| !is_text || records.behind == 0) {
         Some(records) => binary(input, &records),
         None if !is_text => {
@@ -43,6 +43,16 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
             Ok(loaded(corners, "STL, text"))
         }
     }
+}
+
+/// How many bytes are looked at.
+const PROBE_BYTES: usize = 4096;
+
+/// Whether this is text that starts with `solid`.
+pub(in crate::load) fn is_text(bytes: &[u8]) -> bool {
+    let probe = bytes.get(..PROBE_BYTES).unwrap_or(bytes);
+    let start = probe.trim_ascii_start().first_chunk::<5>();
+    start.is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !probe.contains(&0)
 }
 
 /// The triangles of a binary file.

@@ -59,6 +59,11 @@ fn binary_and_text_are_the_same_mesh_with_shared_vertices() {
     check(&colored, "STL, binary", &notes);
 }
 
+#[test]
+fn words_may_have_any_letters() {
+    check(text().to_ascii_uppercase().as_bytes(), "STL, text", &[DEGENERATE]);
+}
+
 #[track_caller]
 fn refuses(bytes: &[u8], expected: &str) {
     let error = of_bytes("a.stl", bytes, parse).unwrap_err();
@@ -80,6 +85,9 @@ fn faults_name_their_line() {
     let expected = "; expected 84 bytes and 50 a triangle, or text that starts with solid";
     let count = "4294967295 triangles are said to be here, but the file ends before them";
     refuses(&huge, &format!("{count}{expected}"));
+    let mut cut = binary_bytes(b"solid but binary");
+    cut.truncate(200);
+    refuses(&cut, &format!("3 triangles are said to be here, but the file ends before them{expected}"));
     refuses(&huge[..83], &format!("the file ends within its header{expected}"));
 }
 

@@ -1,5 +1,7 @@
 //! A line taken apart, and the numbers in it.
 
+use crate::load::number;
+
 /// What stands between the numbers of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Between {
@@ -94,9 +96,9 @@ fn number(word: &[u8], decimal_comma: bool) -> Option<f64> {
         let copy = copy.get_mut(..word.len())?;
         copy.copy_from_slice(word);
         copy.iter_mut().filter(|b| **b == b',').for_each(|b| *b = b'.');
-        return str::from_utf8(copy).ok()?.parse().ok();
+        return number::read(str::from_utf8(copy).ok()?);
     }
-    str::from_utf8(word).ok()?.parse().ok()
+    number::read(str::from_utf8(word).ok()?)
 }
 
 #[cfg(test)]

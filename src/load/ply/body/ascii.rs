@@ -1,7 +1,10 @@
 //! Elements of ascii bodies: one a line, values between blanks.
 
 use super::{Field, Items};
-use crate::load::ply::schema::{Element, Kind, Scalar};
+use crate::load::{
+    number::{self, of_no_number},
+    ply::schema::{Element, Kind, Scalar},
+};
 
 /// Reads the element on this line, and tells how many words are left behind it. Values that are not wanted need not be
 /// numbers.
@@ -44,11 +47,11 @@ pub(super) fn number(name: &str, scalar: Scalar, word: Option<&str>) -> Result<f
     let Some((least, most)) = scalar.range() else {
         // Rounded once, to the type that the header names.
         return match scalar {
-            Scalar::Float => word.parse::<f32>().map(f64::from).map_err(|_| refuse()),
-            _ => word.parse().map_err(|_| refuse()),
+            Scalar::Float => word.parse::<f32>().map(f64::from).ok().or_else(|| of_no_number(word)).ok_or_else(refuse),
+            _ => number::read(word).ok_or_else(refuse),
         };
     };
-    let value: f64 = match word.parse::<i64>() {
+    let value: f64 = match word.parse::<i128>() {
         Ok(whole) if (least..=most).contains(&whole) => return Ok(whole as f64),
         Ok(_) => return Err(refuse()),
         Err(_) => word.parse().map_err(|_| refuse())?,

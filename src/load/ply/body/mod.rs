@@ -60,6 +60,12 @@ impl<'a> Body<'a> {
         self.encoding == Encoding::Ascii
     }
 
+    /// The bytes that are left, but for blanks of text.
+    pub(super) fn left(&self) -> u64 {
+        let rest = if self.is_ascii() { self.rest.trim_ascii() } else { self.rest };
+        rest.len() as u64
+    }
+
     /// Refuses a count that the rest of the file can't hold, before anything is allocated for it.
     pub(super) fn check_size(&self, def: &Element) -> Result<()> {
         let each = def.min_bytes(self.encoding);

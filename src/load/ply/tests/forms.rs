@@ -48,6 +48,62 @@ fn colors_have_many_names() {
 }
 
 #[test]
+fn names_and_types_have_any_letters() {
+    let text = |types: [&str; 3], names: &str| {
+        let [position, normal, color] = types;
+        let [x, y, z, nx, red] = <[&str; 5]>::try_from(names.split(' ').collect::<Vec<_>>()).unwrap();
+        format!(
+            "ply\nformat ascii 1.0\nelement {x} 3\nproperty {position} {y}\nproperty {position} Y\nproperty {position} {z}\n\
+             property {normal} {nx}\nproperty {normal} Ny\nproperty {normal} NZ\nproperty {color} {red}\nproperty {color} Green\n\
+             property {color} BLUE\nelement Face 1\nproperty list uchar int Vertex_Index\nend_header\n\
+             0 0 0 0 0 1 255 0 0\n1 0 0 0 0 1 0 0 0\n0 1 0 0 0 1 0 0 0\n3 0 1 2\n"
+        )
+    };
+    for (types, names) in [
+        (["FLOAT", "Float32", "UCHAR"], "Vertex X Z NX Red"),
+        (["DOUBLE", "float", "UInt8"], "VERTEX X z nx RED"),
+    ] {
+        let loaded = load(text(types, names).as_bytes()).unwrap();
+        assert!(loaded.notes.is_empty(), "{:?}", loaded.notes);
+        let Model::Mesh(mesh) = loaded.model else { panic!("no mesh") };
+        assert_eq!((mesh.positions[1], mesh.normals.unwrap()[2]), (DVec3::X, Vec3::Z));
+        assert_eq!((mesh.colors.get(0), mesh.triangles), (Some([1.0, 0.0, 0.0, 1.0]), vec![[0, 1, 2]]));
+    }
+    // The exact name comes first.
+    let both = points(&cloud(&of_type("X", "float"), "1 2 3 9\n"));
+    assert_eq!(both.positions, [DVec3::new(1.0, 2.0, 3.0)]);
+}
+
+#[test]
+fn integers_of_64_bits_are_read_in_each_encoding() {
+    let header = |encoding: &str| {
+        let places = "property int64 x\nproperty uint64 y\nproperty long z\n";
+        format!("ply\nformat {encoding} 1.0\nelement vertex 1\n{places}end_header\n").into_bytes()
+    };
+    let (x, y, z) = (-5_i64, 1_u64 << 40, 7_i64);
+    let little = [x.to_le_bytes(), y.to_le_bytes(), z.to_le_bytes()].concat();
+    let big = [x.to_be_bytes(), y.to_be_bytes(), z.to_be_bytes()].concat();
+    for (encoding, body) in [
+        ("ascii", b"-5 1099511627776 7\n".to_vec()),
+        ("binary_little_endian", little),
+        ("binary_big_endian", big),
+    ] {
+        let read = points(&[header(encoding), body].concat());
+        assert_eq!(read.positions, [DVec3::new(-5.0, (1_u64 << 40) as f64, 7.0)], "{encoding}");
+    }
+}
+
+#[test]
+fn what_is_behind_the_last_element_is_told() {
+    let told = |bytes: &[u8]| load(bytes).unwrap().notes.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let whole = cloud("", "0 0 0\n1 0 0\n");
+    assert!(told(&whole).is_empty() && told(&[&whole[..], b" \n\n"].concat()).is_empty());
+    let expected = ["6 bytes behind the last element of the header ignored"];
+    assert_eq!(told(&[&whole[..], b"0 1 0\n9"].concat())[..], ["7 bytes behind the last element of the header ignored"]);
+    assert_eq!(told(&[&whole[..], b"0 1  0\n"].concat())[..], expected);
+}
+
+#[test]
 fn integer_colors_are_bytes_where_all_fit_them() {
     for kind in ["short", "ushort", "int", "uint", "int32", "uint16", "char", "float", "double"] {
         let least = if kind == "char" { "0 0 0 -1 0 -128\n" } else { "0 0 0 255 0 128\n" };
