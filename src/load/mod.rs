@@ -9,6 +9,7 @@ pub mod builtin;
 mod e57;
 mod fans;
 mod foreign;
+mod geographic;
 #[cfg(feature = "gltf")]
 mod gltf;
 #[cfg(test)]

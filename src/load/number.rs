@@ -26,10 +26,13 @@ mod tests {
 
     #[test]
     fn what_is_no_number_has_names() {
-        for word in ["nan", "-nan", "-1.#IND", "1.#QNAN0", "-1.#IND000", "1.#SNAN", "-nan(ind)", "nan(snan)"] {
+        for word in ["nan", "-nan", "-1.#IND", "1.#QNAN0", "-1.#IND000", "1.#SNAN", "-nan(ind)", "nan(snan)"]
+        {
             assert!(read(word).is_some_and(f64::is_nan), "{word}");
         }
-        for (word, value) in [("1.#INF", f64::INFINITY), ("-1.#INF000", f64::NEG_INFINITY), ("-1.5e3", -1500.0)] {
+        for (word, value) in
+            [("1.#INF", f64::INFINITY), ("-1.#INF000", f64::NEG_INFINITY), ("-1.5e3", -1500.0)]
+        {
             assert_eq!(read(word), Some(value), "{word}");
         }
         for word in ["", "1.#", "1.#IN", "#IND", "2.#INF", "nan(", "1.#INF1", "one"] {

@@ -39,7 +39,8 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
         return Err(lines.fault(first, "a binary OFF file; expected one of text"));
     }
     // The counts may stand behind the name.
-    let mut words: Box<dyn Iterator<Item = &[u8]>> = Box::new(first.words().skip(usize::from(name.is_some())));
+    let mut words: Box<dyn Iterator<Item = &[u8]>> =
+        Box::new(first.words().skip(usize::from(name.is_some())));
     let mut place = first;
     if name.is_some() && first.words().nth(1).is_none() {
         place = lines.expect("the numbers of vertices and faces")?;

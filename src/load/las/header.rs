@@ -5,6 +5,7 @@ use std::io;
 use las::{Transform, Vector, point::Format, raw};
 use laz::{LazItemRecordBuilder, LazVlr};
 
+use super::coordinates::Coordinates;
 use crate::{error::Result, load::Input};
 
 /// What is needed of a header.
@@ -21,6 +22,9 @@ pub(in crate::load) struct Header {
     pub transforms: Vector<Transform>,
     /// How the records are compressed.
     pub laz: Option<LazVlr>,
+    pub coordinates: Coordinates,
+    /// The first byte behind the points that has another use, or of the end.
+    pub end: usize,
 }
 
 /// What a header has at least.
@@ -74,13 +78,12 @@ pub(in crate::load) fn read(input: &Input<'_>) -> Result<Header> {
         );
         return Err(input.fault("header", problem));
     }
-    let records = input.bytes.get(usize::from(raw.header_size)..data).unwrap_or_default();
-    let (laz, is_copc) = match format.is_compressed {
-        true => laz_record(input, records, number, extra).map(|(laz, is_copc)| (Some(laz), is_copc))?,
-        false => (None, false),
-    };
+    let records = variable_records(input.bytes.get(usize::from(raw.header_size)..data).unwrap_or_default());
+    let coordinates = records.iter().fold(Coordinates::Unknown, Coordinates::or);
+    let is_copc = records.iter().any(|record| record.user_id.starts_with(b"copc\0") && record.record_id == 1);
+    let laz = format.is_compressed.then(|| laz_record(input, &records, number, extra)).transpose()?;
     let name = match (&laz, is_copc) {
-        (_, true) => "COPC, LAZ",
+        (Some(_), true) => "COPC, LAZ",
         (Some(_), false) => "LAZ",
         (None, _) => "LAS",
     };
@@ -96,23 +99,37 @@ pub(in crate::load) fn read(input: &Input<'_>) -> Result<Header> {
         format,
         transforms: Vector { x, y, z },
         laz,
+        coordinates,
+        end: end(&raw, input.bytes.len()),
     })
 }
 
-/// How the points are compressed, and whether they form an octree, which is not needed here.
-fn laz_record(input: &Input<'_>, records: &[u8], number: u8, extra: u16) -> Result<(LazVlr, bool)> {
-    let refuse = |problem: String| Err(input.fault("header", problem));
-    let (mut found, mut is_copc) = (None, false);
-    let mut rest = records;
-    while rest.len() >= VLR_HEADER_BYTES {
-        // One that is cut ends what can be looked for.
-        let Ok(record) = raw::Vlr::read_from(&mut rest, false) else { break };
-        is_copc |= record.user_id.starts_with(b"copc\0") && record.record_id == 1;
-        if record.user_id.starts_with(LazVlr::USER_ID.as_bytes()) && record.record_id == LazVlr::RECORD_ID {
-            found = found.or(Some(record));
-        }
+/// The first byte that waves or extended records have.
+fn end(raw: &raw::Header, file_bytes: usize) -> usize {
+    let extended = raw.evlr.filter(|evlr| evlr.number_of_evlrs > 0).map(|evlr| evlr.start_of_first_evlr);
+    let waves = raw.start_of_waveform_data_packet_record.filter(|start| *start > 0);
+    let first = extended.into_iter().chain(waves).min();
+    first.and_then(|first| usize::try_from(first).ok()).unwrap_or(file_bytes).min(file_bytes)
+}
+
+/// The variable length records; one that is cut is the last.
+fn variable_records(mut rest: &[u8]) -> Vec<raw::Vlr> {
+    let mut records = Vec::new();
+    while rest.len() >= VLR_HEADER_BYTES
+        && let Ok(record) = raw::Vlr::read_from(&mut rest, false)
+    {
+        records.push(record);
     }
-    let Some(record) = found else {
+    records
+}
+
+/// How the points are compressed.
+fn laz_record(input: &Input<'_>, records: &[raw::Vlr], number: u8, extra: u16) -> Result<LazVlr> {
+    let refuse = |problem: String| Err(input.fault("header", problem));
+    let is_of_laz = |record: &&raw::Vlr| {
+        record.user_id.starts_with(LazVlr::USER_ID.as_bytes()) && record.record_id == LazVlr::RECORD_ID
+    };
+    let Some(record) = records.iter().find(is_of_laz) else {
         return refuse("compressed, but without the record that says how".to_owned());
     };
     let laz = LazVlr::from_buffer(&record.data).map_err(|e| input.fault("header", one_line(e)))?;
@@ -126,7 +143,7 @@ fn laz_record(input: &Input<'_>, records: &[u8], number: u8, extra: u16) -> Resu
             .zip(&expected)
             .all(|(a, b)| a.item_type() == b.item_type() && a.size() == b.size());
     match same {
-        true => Ok((laz, is_copc)),
+        true => Ok(laz),
         false => refuse(format!("compressed as another format than {number} with {extra} extra bytes")),
     }
 }

@@ -5,6 +5,7 @@
 
 mod chunks;
 mod columns;
+mod coordinates;
 mod header;
 mod palette;
 #[cfg(test)]
@@ -13,11 +14,12 @@ mod tests;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Input, Loaded, Model};
+use super::{Input, Loaded, Model, geographic::Place};
 use crate::{error::Result, notes::Deed, scene::Points};
 
 pub(in crate::load) use chunks::Chunk;
 pub(in crate::load) use columns::{Columns, NOISE};
+pub(in crate::load) use coordinates::Coordinates;
 pub(in crate::load) use header::{Header, read as read_header};
 pub(in crate::load) use palette::Palette;
 
@@ -46,7 +48,35 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
             input.step(last.end.min(input.bytes.len()));
         }
     }
-    Ok(loaded(columns, None, &header.words))
+    let mut loaded = loaded(columns, None, &header.words);
+    loaded.note(Deed::Ignored, behind(&header), "bytes behind the last point");
+    match header.coordinates {
+        Coordinates::Lengths(metres) => loaded.metres_per_unit = Some(metres),
+        Coordinates::Degrees => flatten(&mut loaded),
+        Coordinates::Unknown => {}
+    }
+    Ok(loaded)
+}
+
+/// How many bytes of records the header doesn't count.
+fn behind(header: &Header) -> u64 {
+    let points = usize::try_from(header.points).unwrap_or(usize::MAX).saturating_mul(header.record_bytes);
+    if header.laz.is_some() {
+        0
+    } else {
+        header.end.saturating_sub(header.data.saturating_add(points)) as u64
+    }
+}
+
+/// Makes lengths of degrees.
+fn flatten(loaded: &mut Loaded) {
+    if let Model::Points(points) = &mut loaded.model
+        && let Some(place) = Place::of(points)
+    {
+        place.flatten(points);
+        let count = points.positions.len() as u64;
+        place.tell(loaded, count);
+    }
 }
 
 /// The records of a file that is not compressed.

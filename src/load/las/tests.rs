@@ -39,6 +39,42 @@ fn notes(loaded: &Loaded) -> Vec<String> {
     loaded.notes.iter().map(ToString::to_string).collect()
 }
 
+/// The same with a record of user `LASF_Projection` that holds this text.
+fn with_text(text: &str) -> Vec<u8> {
+    let mut builder = Builder::from((1, 4));
+    builder.transforms = las::Vector::default();
+    builder.transforms.x.scale = 1e-7;
+    builder.transforms.y.scale = 1e-7;
+    let mut header = builder.into_header().unwrap();
+    header.set_wkt_crs(text.as_bytes().to_vec()).unwrap();
+    let mut writer = Writer::new(Cursor::new(Vec::new()), header).unwrap();
+    for i in 0..3 {
+        writer
+            .write_point(Point { x: 11.5, y: 48.0 + 0.01 * f64::from(i), z: 5.0, ..Point::default() })
+            .unwrap();
+    }
+    writer.close().unwrap();
+    writer.into_inner().unwrap().into_inner()
+}
+
+#[test]
+fn the_unit_is_told_and_degrees_become_metres() {
+    let feet = of_bytes("a.las", &with_text("PROJCS[\"p\",UNIT[\"foot\",0.3048]]"), parse).unwrap();
+    assert_eq!((feet.metres_per_unit, points(&feet).positions[0].x), (Some(0.3048), 11.5));
+    let degrees = of_bytes("a.las", &with_text("GEOGCS[\"g\",UNIT[\"degree\",0.0174]]"), parse).unwrap();
+    let way = points(&degrees).positions[2] - points(&degrees).positions[0];
+    assert!((way.y / 2223.9 - 1.0).abs() < 1e-3 && way.x.abs() < 1e-6, "{way}");
+    assert_eq!(degrees.metres_per_unit, Some(1.0));
+    assert!(notes(&degrees)[0].starts_with("3 longitudes and latitudes, by metres"), "{:?}", notes(&degrees));
+}
+
+#[test]
+fn bytes_behind_the_last_point_are_told() {
+    let whole = file(3, false, 3, |_, _| {});
+    let more = [&whole[..], &[0; 34]].concat();
+    assert_eq!(notes(&of_bytes("a.las", &more, parse).unwrap()), ["34 bytes behind the last point ignored"]);
+}
+
 #[test]
 fn las_and_laz_of_all_common_formats_are_the_same_points() {
     for format in [0, 1, 2, 3, 6, 7] {

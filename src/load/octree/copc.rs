@@ -12,7 +12,7 @@ use crate::{
     error::{Error, Result},
     load::{
         Input, Limits, LoadOptions,
-        las::{Chunk, Columns, Header, read_header},
+        las::{Chunk, Columns, Coordinates, Header, read_header},
     },
     scene::Bounds,
 };
@@ -68,6 +68,10 @@ pub(super) fn open<R: Read + Seek>(source: &mut Source<R>, options: &LoadOptions
     let head = source.read(Span { at: 0, bytes: data })?;
     let input = Input { path: Path::new(&path), folder: None, bytes: &head, options, progress: &() };
     let header = read_header(&input)?;
+    if header.coordinates == Coordinates::Degrees {
+        let problem = "longitude and latitude in degrees; expected lengths, so project it first, or convert it to PLY by surfel convert";
+        return Err(input.fault("header", problem));
+    }
     options.limits.check_points(&input, header.points)?;
     if header.laz.is_none() {
         return Err(refuse("not compressed; expected COPC to be".to_owned()));

@@ -181,7 +181,9 @@ impl Finder<'_> {
         };
         if self.layout.rgb.is_none() {
             let is_intensity = |name: &str| {
-                ["intensity", "scalar_intensity", "gray", "grey"].iter().any(|known| name.eq_ignore_ascii_case(known))
+                ["intensity", "scalar_intensity", "gray", "grey"]
+                    .iter()
+                    .any(|known| name.eq_ignore_ascii_case(known))
             };
             let is_one = |kind| matches!(kind, Kind::One(_));
             let found = self.def.properties.iter().position(|p| is_intensity(&p.name) && is_one(p.kind));

@@ -124,7 +124,10 @@ fn read(input: &Input<'_>, header: &Header, vertex_def: &Element, layout: &Layou
 fn vertex_element(header: &Header) -> Option<&Element> {
     let has_positions = |def: &Element| ["x", "y", "z"].iter().all(|name| def.scalar(name).is_some());
     let exact = header.elements.iter().find(|def| def.is_named(&["vertex"]));
-    let mut others = header.elements.iter().filter(|def| def.is_named(&["vertices", "point", "points"]) && has_positions(def));
+    let mut others = header
+        .elements
+        .iter()
+        .filter(|def| def.is_named(&["vertices", "point", "points"]) && has_positions(def));
     exact.or_else(|| others.next().filter(|_| others.next().is_none()))
 }
 

@@ -7,8 +7,8 @@ mod words;
 
 use std::path::Path;
 
-use crate::error::{Error, Result};
 use super::stl::is_text;
+use crate::error::{Error, Result};
 use foreign::foreign;
 pub(super) use words::without_mark;
 

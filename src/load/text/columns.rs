@@ -31,7 +31,19 @@ const NAMES: [&str; SLOTS] = ["x", "y", "z", "i", "r", "g", "b", "nx", "ny", "nz
 const ALIASES: [&[&str]; SLOTS] = [
     &["x", "easting", "east", "px", "pos_x", "position_x", "points:0", "points_0"],
     &["y", "northing", "north", "py", "pos_y", "position_y", "points:1", "points_1"],
-    &["z", "height", "elevation", "altitude", "pz", "pos_z", "position_z", "points:2", "points_2"],
+    &[
+        "z",
+        "height",
+        "elevation",
+        "altitude",
+        "elev",
+        "alt",
+        "pz",
+        "pos_z",
+        "position_z",
+        "points:2",
+        "points_2",
+    ],
     &["i", "intensity", "scalar_intensity", "reflectance", "amplitude", "gray", "grey"],
     &["r", "red", "diffuse_red"],
     &["g", "green", "diffuse_green"],
@@ -66,12 +78,26 @@ impl Column {
         }
     }
 
+    /// Longitude or latitude in degrees, of a header that calls no column x and y.
+    pub(super) fn of_geographic_header(name: &str) -> Option<Self> {
+        match plain(name).as_str() {
+            "lon" | "long" | "lng" | "longitude" => Some(Self::Position(0)),
+            "lat" | "latitude" => Some(Self::Position(1)),
+            _ => None,
+        }
+    }
+
     /// What a header calls it; units in brackets and quotation marks don't count.
     pub(super) fn of_header(name: &str) -> Self {
-        let name = name.split(['[', '(']).next().unwrap_or_default();
-        let name = name.trim_matches(|c: char| c.is_whitespace() || "\"'_".contains(c)).to_ascii_lowercase();
+        let name = plain(name);
         ALIASES.iter().position(|names| names.contains(&name.as_str())).map_or(Self::Other, Self::of_slot)
     }
+}
+
+/// Small letters, without a unit in brackets and quotation marks.
+fn plain(name: &str) -> String {
+    let name = name.split(['[', '(']).next().unwrap_or_default();
+    name.trim_matches(|c: char| c.is_whitespace() || "\"'_".contains(c)).to_ascii_lowercase()
 }
 
 /// The columns of rows of numbers, from the left: `x,y,z,-,r,g,b` as text. Columns behind the last are not read.

@@ -11,6 +11,8 @@
 //! | 9 | x y z, red green blue and a normal, in either order |
 //! | 10 | x y z, intensity, red green blue and a normal, in either order |
 //! | others | x y z; the others are not read |
+//!
+//! A first column before three others that counts the rows, from any number and one by one, is not read.
 
 use super::{
     columns::{Column, Columns},
@@ -22,6 +24,8 @@ use crate::load::{Input, lines::shown, sniff::without_mark};
 pub(super) struct Layout {
     pub writing: Writing,
     pub columns: Columns,
+    /// x and y are longitude and latitude in degrees.
+    pub geographic: bool,
     /// What the columns that are not read are called, or how many there are.
     pub ignored: Vec<String>,
     /// The byte at which the first line of data starts: a row, or a number of rows.
@@ -69,8 +73,10 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
             (Some(_), false) => {
                 let start = count.map_or(at, |(at, _)| at);
                 let rest = Lines { bytes: input.bytes, at, line_end, most };
-                let (columns, ignored) = columns(input, writing, at, header, comment, rest)?;
-                return Ok(Layout { writing, columns, ignored, start, counted: count.is_some(), line_end });
+                let Found { columns, ignored, geographic } =
+                    columns(input, writing, at, header, comment, rest)?;
+                let counted = count.is_some();
+                return Ok(Layout { writing, columns, geographic, ignored, start, counted, line_end });
             }
             (None, _) if header.is_none() && count.is_none() => header = Some((at, line)),
             (None, _) => return Err((at, format!("'{}'; expected a number", shown(first)))),
@@ -95,28 +101,42 @@ pub(super) fn comment_text(line: &[u8]) -> Option<&[u8]> {
 /// The place in a row of the first number that is read; what stands before it, a time or a name, may be anything.
 fn first_read(input: &Input<'_>, header: Option<&[u8]>, comment: Option<&[u8]>, writing: Writing) -> usize {
     let named = || match header {
-        Some(line) => Some(of_header(line, writing).0),
+        Some(line) => Some(of_header(line, writing).columns),
         // Not every comment names columns.
-        None => comment.map(|text| named(text).0).filter(|columns| Columns::new(columns.clone()).is_ok()),
+        None => {
+            comment.map(|text| named(text).columns).filter(|columns| Columns::new(columns.clone()).is_ok())
+        }
     };
     let columns = input.options.columns.as_ref().map(|given| given.columns().to_vec()).or_else(named);
     let is_read = |column: &Column| *column != Column::Other;
     columns.and_then(|columns| columns.iter().position(is_read)).unwrap_or(0)
 }
 
-/// The columns that a line names, and what those are called that are not read.
-fn named(line: &[u8]) -> (Vec<Column>, Vec<String>) {
+/// The columns `C`, what those are called that are not read, and whether x and y are degrees.
+struct Found<C> {
+    columns: C,
+    ignored: Vec<String>,
+    geographic: bool,
+}
+
+/// What a line names.
+fn named(line: &[u8]) -> Found<Vec<Column>> {
     let text = String::from_utf8_lossy(line);
-    let names = text.split([',', ';', '\t', ' ']).map(str::trim).filter(|name| !name.is_empty());
-    let columns: Vec<(Column, String)> =
-        names.map(|name| (Column::of_header(name), shown(name.as_bytes()))).collect();
-    let others = columns.iter().filter(|(column, _)| *column == Column::Other);
-    let others = others.map(|(_, name)| format!("column '{name}'")).collect();
-    (columns.into_iter().map(|(column, _)| column).collect(), others)
+    let names = || text.split([',', ';', '\t', ' ']).map(str::trim).filter(|name| !name.is_empty());
+    let mut columns: Vec<Column> = names().map(Column::of_header).collect();
+    let has = |axis| columns.contains(&Column::Position(axis));
+    let of_degrees = || names().map(Column::of_geographic_header);
+    let geographic = !has(0) && !has(1) && of_degrees().flatten().count() == 2;
+    if geographic {
+        columns = columns.iter().zip(of_degrees()).map(|(other, found)| found.unwrap_or(*other)).collect();
+    }
+    let others = columns.iter().zip(names()).filter(|(column, _)| **column == Column::Other);
+    let ignored = others.map(|(_, name)| format!("column '{}'", shown(name.as_bytes()))).collect();
+    Found { columns, ignored, geographic }
 }
 
 /// As [`named`], of a header: blanks may be part of names where something else stands between them.
-fn of_header(line: &[u8], writing: Writing) -> (Vec<Column>, Vec<String>) {
+fn of_header(line: &[u8], writing: Writing) -> Found<Vec<Column>> {
     let words: Vec<Vec<u8>> = Writing { decimal_comma: false, ..writing }
         .fields(line)
         // A name that is empty is one, as that of the row's number in tables of pandas.
@@ -133,30 +153,35 @@ fn columns(
     header: Option<(usize, &[u8])>,
     comment: Option<&[u8]>,
     mut rows: Lines<'_>,
-) -> Result<(Columns, Vec<String>), Fault> {
+) -> Result<Found<Columns>, Fault> {
     let first = rows.next().transpose()?.map(|(_, line)| line).unwrap_or_default();
     let width = writing.fields(first).count();
     if let Some(given) = &input.options.columns {
         let behind = width.saturating_sub(given.columns().len());
         // Those that the user names `-` are ignored by their own word.
-        return Ok((given.clone(), vec![format!("column {}", given.columns().len() + 1); behind.min(1)]));
+        let ignored = vec![format!("column {}", given.columns().len() + 1); behind.min(1)];
+        return Ok(Found { columns: given.clone(), ignored, geographic: false });
     }
     if let Some((at, line)) = header {
-        let (columns, others) = of_header(line, writing);
+        let Found { columns, ignored, geographic } = of_header(line, writing);
         let columns = Columns::new(columns).map_err(|problem| (at, format!("header: {problem}")))?;
-        return Ok((columns, others));
+        return Ok(Found { columns, ignored, geographic });
     }
-    if let Some((columns, others)) = comment.map(named)
+    if let Some(Found { columns, ignored, geographic }) = comment.map(named)
         && columns.len() == width
         && let Ok(columns) = Columns::new(columns)
     {
-        return Ok((columns, others));
+        return Ok(Found { columns, ignored, geographic });
     }
-    let columns = by_width(width, &samples(writing, width, Lines { at, ..rows })?);
+    let samples = samples(writing, width, Lines { at, ..rows })?;
+    let columns = match width > 3 && counts_rows(&samples) {
+        true => [&[Column::Other], &by_width(width - 1, &without_first(samples))[..]].concat(),
+        false => by_width(width, &samples),
+    };
     let ignored = (1..).zip(&columns).filter(|(_, column)| **column == Column::Other);
     let ignored = ignored.map(|(i, _)| format!("column {i}")).collect();
     match Columns::new(columns) {
-        Ok(columns) => Ok((columns, ignored)),
+        Ok(columns) => Ok(Found { columns, ignored, geographic: false }),
         Err(_) => Err((at, format!("{width} numbers in a row; expected at least 3"))),
     }
 }
@@ -186,6 +211,24 @@ fn samples(writing: Writing, width: usize, lines: Lines<'_>) -> Result<Vec<Vec<f
         }
     }
     Ok(rows)
+}
+
+/// Whether the first numbers count the rows: one by one in all that are together at the start, and upward in those from all over the file,
+/// which start again.
+fn counts_rows(rows: &[Vec<f64>]) -> bool {
+    let firsts: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
+    let one_by_one = |pair: &&[f64]| matches!(pair, [a, b] if a.fract() == 0.0 && b - a == 1.0);
+    let together = firsts.windows(2).take_while(one_by_one).count() + 1;
+    let others = firsts.get(together..).unwrap_or_default();
+    together >= FEWEST_COUNTED && others.is_sorted() && others.iter().all(|number| number.fract() == 0.0)
+}
+
+/// Fewer rows may count by accident.
+const FEWEST_COUNTED: usize = 10;
+
+fn without_first(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    rows.iter_mut().for_each(|row| drop(row.drain(..1)));
+    rows
 }
 
 fn by_width(width: usize, rows: &[Vec<f64>]) -> Vec<Column> {

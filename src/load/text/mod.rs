@@ -8,7 +8,7 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
-use super::{Input, Loaded, Model, shade};
+use super::{Input, Loaded, Model, geographic::Place, shade};
 use crate::{
     error::Result,
     notes::Deed,
@@ -47,7 +47,8 @@ fn loaded(rows: Rows, layout: &Layout) -> Loaded {
         }
         (true, true) => (Colors::unknown(), "", 0),
     };
-    let points = Points {
+    let count = rows.positions.len() as u64;
+    let mut points = Points {
         positions: rows.positions,
         normals: (!rows.normals.is_empty()).then_some(rows.normals),
         radii: (!rows.radii.is_empty()).then_some(rows.radii),
@@ -56,7 +57,14 @@ fn loaded(rows: Rows, layout: &Layout) -> Loaded {
         viewpoints: Vec::new(),
     };
     let format = format!("rows of {}{what}", layout.columns);
+    let place = layout.geographic.then(|| Place::of(&points)).flatten();
+    if let Some(place) = &place {
+        place.flatten(&mut points);
+    }
     let mut loaded = Loaded::new(Model::Points(points), format);
+    if let Some(place) = place {
+        place.tell(&mut loaded, count);
+    }
     loaded.note(Deed::Clamped, outside, "points with a color out of its range");
     loaded.note(Deed::Ignored, longer, "rows with more numbers than columns, whose rest is");
     let ignored = &layout.ignored;

@@ -57,6 +57,44 @@ fn columns_are_told_by_their_number() {
 }
 
 #[test]
+fn a_first_column_that_counts_rows_is_none_of_the_place() {
+    let rows = |first: &dyn Fn(u32) -> u32, count: u32| -> String {
+        (0..count).map(|i| format!("{} {}.5 2 3\n", first(i), i % 7)).collect()
+    };
+    for (text, format) in [
+        (rows(&|i| i, 2000), "rows of - x y z"),
+        (rows(&|i| i + 17, 10), "rows of - x y z"),
+        (rows(&|i| i, 9), "rows of x y z i, intensity as gray"),
+        (rows(&|i| i % 600, 2000), "rows of x y z i, intensity as gray"),
+        (rows(&|i| 2 * i, 2000), "rows of x y z i, intensity as gray"),
+    ] {
+        let (points, loaded) = points(&text);
+        assert_eq!(loaded.format, format);
+        let x = points.positions[3].x;
+        assert!(if format.contains("- x") { x == 3.5 } else { x != 3.5 }, "{format}");
+    }
+    let colored: String = (1..20).map(|i| format!("{i},0,0,{i},255,0,7\n")).collect();
+    assert_eq!(points(&colored).1.format, "rows of - x y z r g b, colors 0–255");
+}
+
+#[test]
+fn degrees_become_metres() {
+    let (found, loaded) = points("id,Latitude,Longitude,alt\n1,48.10,11.5,520\n2,48.11,11.5,530\n");
+    let way = found.positions[1] - found.positions[0];
+    assert!((way.y / 1111.97 - 1.0).abs() < 1e-3 && way.x == 0.0 && way.z == 10.0, "{way}");
+    assert_eq!((loaded.up, loaded.metres_per_unit), (Some(DVec3::Z), Some(1.0)));
+    let told = "2 longitudes and latitudes, by metres east and north of 11.5,48.105, replaced";
+    assert!(notes(&loaded).contains(&told.to_owned()), "{:?}", notes(&loaded));
+    let (both, loaded) = points("lat lon x y z\n48.1 11.5 1 2 3\n");
+    assert_eq!((both.positions[0], loaded.format.as_str()), (DVec3::new(1.0, 2.0, 3.0), "rows of - - x y z"));
+    assert_eq!(
+        points("lat lon z\n95 11.5 3\n").0.positions[0],
+        DVec3::new(11.5, 95.0, 3.0),
+        "no place on earth"
+    );
+}
+
+#[test]
 fn normals_that_start_like_colors_are_told_by_later_rows() {
     let mut text = "1 2 3 0.6 0.7 0.1\n".repeat(3000);
     text.push_str(&"1 2 3 0 0 -1\n".repeat(3000));

@@ -47,7 +47,9 @@ pub(super) fn number(name: &str, scalar: Scalar, word: Option<&str>) -> Result<f
     let Some((least, most)) = scalar.range() else {
         // Rounded once, to the type that the header names.
         return match scalar {
-            Scalar::Float => word.parse::<f32>().map(f64::from).ok().or_else(|| of_no_number(word)).ok_or_else(refuse),
+            Scalar::Float => {
+                word.parse::<f32>().map(f64::from).ok().or_else(|| of_no_number(word)).ok_or_else(refuse)
+            }
             _ => number::read(word).ok_or_else(refuse),
         };
     };

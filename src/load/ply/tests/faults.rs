@@ -24,7 +24,7 @@ fn faults_of_the_header() {
     refuses(&points("end_header\n", ""), "header: the file ends before 'end_header'");
     refuses(&points("ply", "ply 2"), "line 1: 'ply 2'; expected 'ply'");
     refuses(&points("format ascii 1.0\n", ""), "header: no line 'format'; expected one");
-    let kinds = "expected char, uchar, short, ushort, int, uint, float or double";
+    let kinds = "expected char, uchar, short, ushort, int, uint, int64, uint64, float or double";
     refuses(&points("float x", "flaot x"), &format!("line 4: type 'flaot'; {kinds}"));
     refuses(&points("float x", "list uchar flaot x"), &format!("line 4: type 'flaot'; {kinds}"));
     refuses(

@@ -99,7 +99,10 @@ fn what_is_behind_the_last_element_is_told() {
     let whole = cloud("", "0 0 0\n1 0 0\n");
     assert!(told(&whole).is_empty() && told(&[&whole[..], b" \n\n"].concat()).is_empty());
     let expected = ["6 bytes behind the last element of the header ignored"];
-    assert_eq!(told(&[&whole[..], b"0 1 0\n9"].concat())[..], ["7 bytes behind the last element of the header ignored"]);
+    assert_eq!(
+        told(&[&whole[..], b"0 1 0\n9"].concat())[..],
+        ["7 bytes behind the last element of the header ignored"]
+    );
     assert_eq!(told(&[&whole[..], b"0 1  0\n"].concat())[..], expected);
 }
 
