@@ -247,3 +247,21 @@ fn sizes_of_points_are_radii_or_are_told_to_be_ignored() {
         surfel(&folder, &["convert", "pixels.ply", "b.ply", "--strict"]).stderr.contains("no lengths here")
     );
 }
+
+#[test]
+fn inputs_that_are_far_apart_are_told() {
+    let folder = Folder::new();
+    let at = |x: f64| rows(grid(5, 0.0).map(move |[a, y, z]| [a + x, y, z]));
+    folder.write("here.xyz", at(0.0));
+    folder.write("there.xyz", at(4.6e6));
+    folder.write("near.xyz", at(900.0));
+    let told = "the inputs are so far apart that none is seen";
+    let far = done(&folder, &["render", "here.xyz", "there.xyz", "--size", "64x64"]).stderr;
+    assert!(far.contains(told) && far.contains("there.xyz is at 4600002,2,0"), "{far}");
+    for words in [&["here.xyz", "near.xyz"][..], &["there.xyz"]] {
+        let run = done(&folder, &[&["render"], words, &SIZE].concat());
+        assert!(!run.stderr.contains(told), "{words:?}: {}", run.stderr);
+    }
+    let info = done(&folder, &["info", "here.xyz", "--up", "z"]).stdout;
+    assert!(info.contains("up        0,0,1, because --up says so"), "{info}");
+}

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use surfel::{
     prepare::Rebase,
-    scene::{Ball, Scene},
+    scene::{Ball, Bounds, Scene},
 };
 
 use crate::{console, info::number};
@@ -20,8 +20,34 @@ pub fn shift(scene: &Scene, radius: f64) -> Option<DVec3> {
     (origin.length() > FAR * radius).then_some(origin)
 }
 
-/// Tells it.
+/// What is so many times as wide as the widest of its parts is mostly empty: each part is less than a pixel of most pictures.
+const APART: f64 = 1000.0;
+
+/// Tells of parts of which none can be seen with the others: their coordinates are of different systems, most likely.
+fn tell_apart(scene: &Scene, ball: &Ball) {
+    let splats = scene.objects.iter().map(|object| (&object.name, object.splats.bounds()));
+    let meshes = scene.meshes.iter().map(|object| (&object.name, object.mesh.bounds()));
+    let parts = splats.chain(meshes).filter_map(|(name, bounds)| Some((name, bounds?)));
+    let size = |(_, bounds): &(&String, Bounds)| bounds.radius();
+    let farthest = parts.clone().max_by(|a, b| {
+        let away = |(_, bounds): &(&String, Bounds)| bounds.center().distance(ball.center);
+        away(a).total_cmp(&away(b))
+    });
+    let widest = parts.clone().map(|part| size(&part)).fold(0.0, f64::max);
+    if let Some((name, bounds)) = farthest.filter(|_| ball.radius > APART * widest && parts.count() > 1) {
+        let [x, y, z] = bounds.center().to_array().map(number);
+        console::say(&format!(
+            "the inputs are so far apart that none is seen: all are within {} of each other, the widest is {} wide, and {name} is at \
+             {x},{y},{z}; expected coordinates of one system, so look at them one by one",
+            number(2.0 * ball.radius),
+            number(2.0 * widest)
+        ));
+    }
+}
+
+/// Tells it, and of what is far apart.
 pub fn tell(scene: &Scene, ball: &Ball) {
+    tell_apart(scene, ball);
     if let Some(origin) = shift(scene, ball.radius) {
         let origin = origin.to_array().map(number).join(",");
         console::say(&format!("the origin is moved to {origin} on the device, as its numbers have 32 bits"));

@@ -22,6 +22,7 @@ use crate::{
     inputs::Inputs,
     origin,
     scene::Loaded,
+    up::Up,
 };
 
 /// The bytes of most splats on a device, and those of one in a scene that is too extended for these.
@@ -37,13 +38,10 @@ pub struct FileInfo {
     drawn: Vec<Part>,
     scene: Whole,
     /// Which direction is up, and what tells it; `None` where nothing does and +y is taken.
-    up: Option<(CameraUp, String)>,
+    up: Option<([f64; 3], String)>,
     /// The camera that would be taken for a square picture.
     camera: CameraReport,
 }
-
-/// A direction.
-type CameraUp = [f64; 3];
 
 /// Splats or triangles that are drawn as one.
 #[derive(Serialize)]
@@ -103,7 +101,7 @@ pub fn gather(inputs: &Inputs, camera: &CameraArguments) -> Result<FileInfo> {
     for file in &mut loaded.hierarchies {
         file.check(&bars)?;
     }
-    let camera = choice.camera(&loaded, Settings::default().size_px)?;
+    let found = choice.camera(&loaded, Settings::default().size_px)?;
     for octree in &mut loaded.octrees.files {
         octree.choose(&|_| true)?;
     }
@@ -135,8 +133,11 @@ pub fn gather(inputs: &Inputs, camera: &CameraArguments) -> Result<FileInfo> {
             host_bytes,
             device_bytes: DEVICE_BYTES.map(|bytes| bytes * splats as u64),
         },
-        up: up.map(|up| (up.direction.into(), up.because)),
-        camera: (&camera).into(),
+        up: match camera.up {
+            Some(Up::Given(direction)) => Some((direction, "--up says so".to_owned())),
+            Some(Up::Auto) | None => up.map(|up| (up.direction.into(), up.because)),
+        },
+        camera: (&found).into(),
     })
 }
 
