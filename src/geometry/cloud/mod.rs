@@ -2,7 +2,7 @@
 //!
 //! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`], or the one of their [`sheets`] that it lies on, or of coarser
 //! [`patches`] where there is [`noise`]; normals are turned to one side ([`orient`]); isolated points are left out ([`outliers`], [`strays`]); disks [`reach`] as far as
-//! closes the surface. All of it is the same whatever the number of threads.
+//! closes the surface ([`radii`]). All of it is the same whatever the number of threads.
 //!
 //! Splats are round: ellipses take half as much memory again (48 bytes on the device instead of 32), and gain only where points lie much denser along one direction than across.
 
@@ -13,14 +13,13 @@ mod orient;
 mod outliers;
 mod patches;
 mod plane;
+mod radii;
 mod reach;
 mod report;
 mod sheets;
 mod strays;
 #[cfg(test)]
 mod tests;
-
-use std::ops::RangeInclusive;
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -35,22 +34,11 @@ use crate::{
 };
 use merge::{Merged, merge};
 use plane::{MOST_NEIGHBORS, NEIGHBORS};
-use reach::Cells;
 
 pub use report::{CloudReport, Sides};
 
 /// So many points are done between two progress messages.
 const BATCH: usize = 1 << 16;
-
-/// The radius of a point that is alone: there is nothing to measure it by.
-const ALONE: f64 = 1.0;
-
-/// Sizes that are radii, in those that were found: such disks close the surface, and are not as large as those that are limited.
-const CLOSE: RangeInclusive<f32> = (1.0 / DEFAULT_OVERLAP) as f32..=4.0;
-
-/// Cosine of the angle between normals from which on a neighbor is of another face: its disk is half as wide then as seen from
-/// here, and its share of the surface beside an edge is not covered by it alone.
-const OTHER_FACE: f64 = 0.5;
 
 /// Makes a round disk of each point.
 ///
@@ -136,7 +124,7 @@ impl Cloud {
         &self,
         place: usize,
         near: &[u32],
-        part: impl Fn(usize) -> bool,
+        mut part: impl FnMut(usize) -> bool,
         into: &'a mut Vec<DVec3>,
     ) -> &'a [DVec3] {
         let here = self.place(place);
@@ -233,68 +221,5 @@ impl Cloud {
             }
             Sides::AsNeighbors
         }
-    }
-
-    /// The radii of disks: the file's, or those that close the surface. Those of isolated points, which are left out, are not told of.
-    fn radii(
-        &self,
-        points: &Points,
-        isolated: &[bool],
-        steps: &Steps<'_>,
-        report: &mut CloudReport,
-    ) -> Vec<f32> {
-        let count = self.tree.points().len();
-        let of_file = |place: usize| -> Option<f32> {
-            let number = self.tree.points()[place].number as usize;
-            points.radii.as_ref().map(|radii| radii[number]).filter(|r| *r > 0.0 && r.is_finite())
-        };
-        let own = |place: usize| of_file(place).filter(|_| !points.radii_in_doubt);
-        let one = |scratch: &mut (Vec<DVec3>, Cells), place: usize| {
-            own(place).unwrap_or_else(|| (DEFAULT_OVERLAP * self.reach(place, scratch)) as f32)
-        };
-        let mut radii = Vec::with_capacity(count);
-        for first in (0..count).step_by(BATCH) {
-            steps.done(1, first, count);
-            let batch = (first..count.min(first + BATCH)).into_par_iter();
-            radii.par_extend(batch.map_init(Default::default, one));
-        }
-        steps.done(1, count, count);
-        let from_file = (0..count).filter(|&place| of_file(place).is_some()).count();
-        if points.radii_in_doubt && from_file > 0 {
-            let close =
-                |&place: &usize| of_file(place).is_some_and(|size| CLOSE.contains(&(size / radii[place])));
-            if 2 * (0..count).filter(close).count() < from_file {
-                report.sizes_ignored = from_file;
-            } else {
-                radii.iter_mut().enumerate().for_each(|(place, radius)| {
-                    *radius = of_file(place).unwrap_or(*radius);
-                });
-            }
-        }
-        report.radii_from_file = from_file - report.sizes_ignored;
-        if report.radii_from_file > 0 {
-            return radii;
-        }
-        let limited = outliers::limit_radii(&self.neighbors, &radii);
-        let changed =
-            limited.iter().zip(&radii).zip(isolated).filter(|((new, old), out)| new != old && !**out);
-        report.limited = changed.count();
-        limited
-    }
-
-    /// The least radius of the disk at a place.
-    fn reach(&self, place: usize, (offsets, cells): &mut (Vec<DVec3>, Cells)) -> f64 {
-        let normal = self.normals[place];
-        let same_face = |j: usize| normal.dot(self.normals[j]) > OTHER_FACE;
-        let mut of = |near: &[u32]| cells.reach(normal, self.offsets(place, near, same_face, offsets));
-        let mut found = of(&self.neighbors[place]);
-        // Most that 12 leave open are closed by twice as many, which take half as long to find as 48.
-        if found.open {
-            found = of(&self.near::<{ 2 * NEIGHBORS }>(place));
-        }
-        if found.open {
-            found = of(&self.near::<MOST_NEIGHBORS>(place));
-        }
-        if found.distance > 0.0 { found.distance } else { ALONE }
     }
 }

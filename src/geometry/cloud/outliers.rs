@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{plane::NEIGHBORS, strays};
+use super::{plane::NEIGHBORS, radii::Radius, strays};
 use crate::geometry::neighbors::Tree;
 
 /// A point is isolated whose neighbors are so many times as far away as its neighbors' neighbors are from them. Where the density
@@ -11,6 +11,9 @@ pub(super) const ISOLATED: f64 = 8.0;
 
 /// No disk is larger than so many times the median of its neighbors'; it then gets the median.
 const LARGEST: f32 = 4.0;
+
+/// At a rim, where what is far away may be outside of the surface.
+const LARGEST_AT_RIM: f32 = 2.0;
 
 /// Whether each point is isolated, or a stray; `spreads` are mean distances of neighbors.
 pub(super) fn isolated(tree: &Tree, neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<bool> {
@@ -35,6 +38,24 @@ pub(super) fn limit_radii(neighbors: &[[u32; NEIGHBORS]], radii: &[f32]) -> Vec<
     ) {
         Some(median) if median > 0.0 => median as f32,
         _ => radius,
+    };
+    neighbors.par_iter().zip(radii).map(limited).collect()
+}
+
+/// Radii, at rims no larger than the median of those of neighbors that are at none, but for what closes the surface, up to
+/// [`LARGEST_AT_RIM`] of it.
+pub(super) fn limit_rims(neighbors: &[[u32; NEIGHBORS]], radii: &[Radius]) -> Vec<f32> {
+    let limited = |(near, &Radius { whole, of_rim }): (&[u32; NEIGHBORS], &Radius)| {
+        let Some(within) = of_rim else { return whole };
+        let near = near.iter().filter(|j| **j != u32::MAX).map(|j| radii[*j as usize]);
+        let mut inner = [f32::INFINITY; NEIGHBORS];
+        let count = inner.iter_mut().zip(near.filter(|near| near.of_rim.is_none()));
+        let count = count.map(|(to, near)| *to = near.whole).count();
+        inner.sort_unstable_by(f32::total_cmp);
+        match inner.get(count.saturating_sub(1) / 2) {
+            Some(median) if count > 0 => whole.min(median.max(within.min(LARGEST_AT_RIM * median))),
+            _ => whole,
+        }
     };
     neighbors.par_iter().zip(radii).map(limited).collect()
 }

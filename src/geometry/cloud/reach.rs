@@ -7,10 +7,14 @@
 //!
 //! A cell that no neighbor closes is at the border of the surface, or of a hole in the sampling. It is cut where corners would be
 //! farther than [`WIDEST_GAP`] distances of the 6th neighbor: in between, two mean distances or so, gaps are closed, and wider
-//! ones are the surface's own. At such a cut a disk reaches as far as its closed corners or its third neighbor.
+//! ones are the surface's own. A far corner behind which there is no neighbor is outside of the surface, too. At such a rim a disk reaches as far as its other corners or its third neighbor, and no farther for the latter than
+//! those of its neighbors that are at no rim ([`limit_rims`](super::outliers::limit_rims)).
+//!
+//! Scan lines have neighbors on the line only: there the gap to the next line counts, if it is not beyond [`WIDEST_BETWEEN_LINES`].
 //!
 //! Neighbors of other faces are no neighbors: the other side of a plate, and what lies behind an edge. A disk there is seen from
-//! its edge, and covers nothing of this face, so that its point must not take a part of this cell.
+//! its edge, and covers nothing of this face, so that its point must not take a part of this cell. But the cell ends where the planes of the
+//! two faces meet, or at the neighbor, if that is farther: there is the edge ([`Cells::cut`]).
 
 use std::f32::consts::FRAC_1_SQRT_2;
 
@@ -19,6 +23,16 @@ use glam::{DVec3, Vec2, Vec4};
 /// How far corners of a cell may be, in distances of the 6th neighbor.
 const WIDEST_GAP: f64 = 1.5;
 
+/// How far the next scan line may be, in distances of the 6th neighbor, which is 3 points away along a line: 18 times as far as the next point.
+const WIDEST_BETWEEN_LINES: f64 = 6.0;
+
+/// So many nearest neighbors are a line.
+const LINE: usize = 8;
+
+/// Sine of the angle to the first one up to which neighbors are on its line, and from which on they are beside it.
+const LINE_WIDTH: f64 = 0.1;
+const BESIDE_LINE: f64 = 0.7;
+
 /// The sides of the polygon about a circle of that radius.
 const SIDES: usize = 8;
 
@@ -26,12 +40,41 @@ const SIDES: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     pub distance: f64,
+    /// What of it closes the surface toward neighbors; less than all at some rims.
+    pub within: f64,
     /// No neighbor closes the cell on some side.
     pub open: bool,
+    /// A corner of it is outside of the surface, as far as these neighbors tell.
+    pub outside: bool,
+}
+
+impl Reach {
+    /// The disk is at a rim.
+    pub fn is_at_rim(&self) -> bool {
+        self.open || self.outside
+    }
 }
 
 /// Half of the squared distance from which on a neighbor's line is beyond the corners of the octagon, in its radii.
 const BEYOND: f64 = 2.5;
+
+/// How far a corner is that may be outside of the surface, in radii of the circle: farther than most inside.
+const FAR: f32 = 0.45;
+
+/// How far those are along its direction, at most, that close a gap with it, in distances of the corner.
+const FARTHEST: f32 = 2.5;
+
+/// Edges of a cell are one four of lines.
+const MOST_CUTS: usize = 4;
+
+/// Sine of the angle between faces from which on their edge is where their planes meet: 60°.
+const LEAST_SINE: f64 = 0.866;
+
+/// Cosine of the angle between directions to edges up to which they are one edge.
+const SAME_DIRECTION: f64 = 0.8;
+
+/// How near an edge may be, in radii of the circle: at 0 a cell would have no inside.
+const NEAREST_CUT: f64 = 1e-3;
 
 /// Of four lines the x and y of their directions, and the limits: on the cell's side x·along ≤ limit.
 type Four = [Vec4; 3];
@@ -52,6 +95,10 @@ const OCTAGON: [Four; SIDES / 4] = {
 #[derive(Default)]
 pub(super) struct Cells {
     lines: Vec<Four>,
+    /// Directions of unit length, and how far away the edges are.
+    cuts: Vec<(DVec3, f64)>,
+    /// How many of the lines are no neighbors'.
+    others: usize,
     /// How long the way is up to each.
     lengths: Vec<Vec4>,
 }
@@ -59,13 +106,22 @@ pub(super) struct Cells {
 impl Cells {
     /// The reach of a point's cell in its tangent plane, from its neighbors' offsets, nearest first, 56 at most. Zero without any.
     pub(super) fn reach(&mut self, normal: DVec3, offsets: &[DVec3]) -> Reach {
-        let Some(sixth) = offsets.get(5).or(offsets.last()) else {
-            return Reach { distance: 0.0, open: true };
-        };
-        let radius = WIDEST_GAP * sixth.length();
+        let radius = widest_gap(offsets);
+        if radius == 0.0 {
+            return Reach { distance: 0.0, within: 0.0, open: true, outside: false };
+        }
         self.lines.clear();
         self.lines.extend(OCTAGON);
         let (u, v) = normal.any_orthonormal_pair();
+        if !self.cuts.is_empty() {
+            let [mut x, mut y, mut limits] = [Vec4::ZERO, Vec4::ZERO, Vec4::MAX];
+            for (i, (along, distance)) in self.cuts.iter().enumerate() {
+                let limit = (distance / radius).max(NEAREST_CUT);
+                (x[i], y[i], limits[i]) = (along.dot(u) as f32, along.dot(v) as f32, limit as f32);
+            }
+            self.lines.push([x, y, limits]);
+        }
+        self.others = 4 * self.lines.len();
         let (u, v) = (u / radius, v / radius);
         for offsets in offsets.chunks(4) {
             let [mut x, mut y, mut limits] = [Vec4::ZERO, Vec4::ZERO, Vec4::MAX];
@@ -77,7 +133,7 @@ impl Cells {
             }
             self.lines.push([x, y, limits]);
         }
-        let (mut farthest, mut closed, mut open) = (0.0_f32, 0.0_f32, false);
+        let (mut farthest, mut closed, mut open, mut outside) = (0.0_f32, 0.0_f32, false, false);
         let (mut corner, first) = self.next(Vec2::ZERO, Vec2::X);
         let mut line = first;
         // Of lines that are equal but for rounding the first may not be met again.
@@ -87,6 +143,7 @@ impl Cells {
             farthest = farthest.max(squared);
             match line.min(met) < SIDES {
                 true => open = true,
+                false if line.min(met) >= self.others && self.is_outside(next, [line, met]) => outside = true,
                 false => closed = closed.max(squared),
             }
             (corner, line) = (next, met);
@@ -95,14 +152,61 @@ impl Cells {
             }
         }
         let [farthest, closed] = [farthest, closed].map(|squared| radius * f64::from(squared).sqrt());
-        let distance = match open {
+        let distance = match open || outside {
             false => farthest,
             true => {
                 let third = offsets.get(2).or(offsets.last()).map_or(0.0, |offset| offset.length());
                 closed.max(third.min(farthest))
             }
         };
-        Reach { distance, open }
+        Reach { distance, within: closed, open, outside }
+    }
+
+    /// Adds the edge to the face of a neighbor at an offset, of which there are [`MOST_CUTS`]; to faces in one direction the farther.
+    pub(super) fn cut(&mut self, normal: DVec3, other: DVec3, offset: DVec3) {
+        let along = other - normal * normal.dot(other);
+        let sine = along.length();
+        if sine < LEAST_SINE {
+            return;
+        }
+        let along = if offset.dot(along) < 0.0 { -along / sine } else { along / sine };
+        let distance = (other.dot(offset).abs() / sine).max(offset.dot(along));
+        if let Some((_, own)) = self.cuts.iter_mut().find(|(own, _)| own.dot(along) > SAME_DIRECTION) {
+            *own = own.max(distance);
+        } else if self.cuts.len() < MOST_CUTS {
+            self.cuts.push((along, distance));
+        }
+    }
+
+    /// Forgets the edges of the point before.
+    pub(super) fn uncut(&mut self) {
+        self.cuts.clear();
+    }
+
+    /// Whether a corner between two neighbors is outside of the surface: far away, not within the triangle with them, and no other neighbor is
+    /// beyond it, within 60° of its direction.
+    fn is_outside(&self, corner: Vec2, between: [usize; 2]) -> bool {
+        let squared = corner.length_squared();
+        if squared < FAR * FAR {
+            return false;
+        }
+        let [a, b] = between.map(|line| self.along(line));
+        let dot = a.dot(b);
+        if dot > 0.0 && a.length_squared() > dot && b.length_squared() > dot {
+            return false;
+        }
+        let beyond = |(i, [x, y, _]): (usize, &Four)| {
+            let toward = corner.x * x + corner.y * y;
+            let aside = corner.x * y - corner.y * x;
+            let is_beyond = toward.cmpgt(Vec4::splat(squared))
+                & aside.abs().cmplt(toward)
+                & toward.cmplt(Vec4::splat(FARTHEST * squared));
+            u64::from(is_beyond.bitmask()) << (4 * i)
+        };
+        let all =
+            self.lines[self.others / 4..].iter().enumerate().map(beyond).fold(0, |all, four| all | four);
+        let of_both = between.iter().fold(0, |both, line| both | 1 << (line - self.others));
+        all & !of_both == 0
     }
 
     fn along(&self, number: usize) -> Vec2 {
@@ -138,117 +242,22 @@ impl Cells {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use std::f64::consts::PI;
-
-    use glam::DVec2;
-
-    use super::*;
-    use crate::{geometry::cloud::plane::MOST_NEIGHBORS, math::random::SplitMix};
-
-    fn reach(normal: DVec3, offsets: &[DVec3]) -> Reach {
-        Cells::default().reach(normal, offsets)
-    }
-
-    fn grid(spacing: DVec2, part: impl Fn(DVec3) -> bool) -> Vec<DVec3> {
-        let one = |i: i32| spacing * DVec2::new(f64::from(i % 7 - 3), f64::from(i / 7 - 3));
-        let mut all: Vec<DVec3> =
-            (0..49).map(|i| one(i).extend(0.0)).filter(|o| o.length() > 0.0 && part(*o)).collect();
-        all.sort_by(|a, b| a.length().total_cmp(&b.length()));
-        all
-    }
-
-    #[test]
-    fn on_a_grid_a_disk_reaches_the_middle_of_its_squares() {
-        let found = reach(DVec3::Z, &grid(DVec2::ONE, |_| true));
-        assert!(!found.open && (found.distance - 0.5_f64.sqrt()).abs() < 1e-6, "{found:?}");
-        let oblong = reach(-DVec3::Z, &grid(DVec2::new(1.0, 2.0), |_| true));
-        assert!(!oblong.open && (oblong.distance - 1.25_f64.sqrt()).abs() < 1e-6, "{oblong:?}");
-    }
-
-    #[test]
-    fn at_a_border_it_reaches_no_farther_than_its_neighbors() {
-        let found = reach(DVec3::Z, &grid(DVec2::ONE, |o| o.x <= 0.0));
-        assert!(found.open && (found.distance - 1.0).abs() < 1e-6, "{found:?}");
-        assert_eq!(reach(DVec3::Z, &[]), Reach { distance: 0.0, open: true });
-        let one = reach(DVec3::Z, &[DVec3::new(0.0, 2.0, 0.0)]);
-        assert!(one.open && one.distance == 2.0, "{one:?}");
-    }
-
-    #[test]
-    fn a_point_right_below_cuts_nothing() {
-        let mut offsets = grid(DVec2::ONE, |_| true);
-        offsets.insert(0, DVec3::new(0.0, 0.0, -0.1));
-        assert!((reach(DVec3::Z, &offsets).distance - 0.5_f64.sqrt()).abs() < 1e-6);
-    }
-    /// Of all crossings of two lines those that no line cuts off, and whether one is the octagon's.
-    fn corners(lines: &[(DVec2, f64)]) -> (f64, bool) {
-        let (mut farthest, mut open) = (0.0_f64, false);
-        for (i, (a, at_a)) in lines.iter().enumerate() {
-            for (j, (b, at_b)) in lines.iter().enumerate().take(i) {
-                let across = a.perp_dot(*b);
-                if across.abs() < 1e-9 * a.length() * b.length() {
-                    continue;
-                }
-                let corner = DVec2::new(at_a * b.y - at_b * a.y, at_b * a.x - at_a * b.x) / across;
-                if lines.iter().all(|(line, limit)| corner.dot(*line) <= limit + 1e-9 * limit.max(1.0)) {
-                    farthest = farthest.max(corner.length());
-                    open |= j.min(i) < SIDES;
-                }
-            }
-        }
-        (farthest, open)
-    }
-
-    #[test]
-    fn the_way_around_finds_the_corners_that_all_pairs_of_lines_have() {
-        let mut random = SplitMix(12);
-        let (mut open, mut closed) = (0, 0);
-        for case in 0..3000 {
-            let scale = 10.0_f64.powi(case % 201 - 100);
-            let mut unit = || 2.0 * random.unit() - 1.0;
-            let mut offsets: Vec<DVec3> = (0..[2, 6, 12, 24, 48][case as usize % 5])
-                .map(|_| scale * DVec3::new(unit(), unit(), 0.2 * unit()))
-                .collect();
-            match case % 7 {
-                0 => offsets.extend_from_within(..2),
-                1 => offsets.iter_mut().for_each(|offset| *offset = (*offset / scale * 2.0).round() * scale),
-                2 => offsets.push(DVec3::splat(1e60 * scale)),
-                3 => (0..offsets.len()).for_each(|i| {
-                    let beside = scale * DVec3::new(unit(), unit(), unit());
-                    offsets.push(offsets[i] + 10.0_f64.powi(-3 - case % 5) * beside);
-                }),
-                _ => {}
-            }
-            offsets.retain(|offset| offset.length() > 1e-3 * scale);
-            offsets.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-            offsets.truncate(MOST_NEIGHBORS);
-            let Some(sixth) = offsets.get(5).or(offsets.last()) else { continue };
-            let radius = WIDEST_GAP * sixth.length();
-            let octagon = (0..SIDES).map(|i| (DVec2::from_angle(i as f64 * PI / 4.0), 1.0));
-            let (u, v) = DVec3::Z.any_orthonormal_pair();
-            let line = |offset: &DVec3| {
-                let offset = *offset / radius;
-                (DVec2::new(offset.dot(u), offset.dot(v)), 0.5 * offset.length_squared())
-            };
-            let near = offsets.iter().filter(|offset| offset.length() < 3.0 * radius);
-            let (farthest, is_open) = corners(&octagon.chain(near.map(line)).collect::<Vec<_>>());
-            let found = reach(DVec3::Z, &offsets);
-            let third = offsets.get(2).or(offsets.last()).unwrap().length();
-            // Where it is open, closed corners decide, or the third neighbor.
-            if !is_open && !found.open {
-                closed += 1;
-                assert!((found.distance / radius - farthest).abs() < 1e-5, "{case}: {found:?} {farthest}");
-            } else if is_open && found.open {
-                open += 1;
-                let least = third.min(farthest * radius);
-                assert!((0.99999 * least..=1.00001 * farthest * radius).contains(&found.distance));
-            } else {
-                // A corner of the octagon that rounding cuts off.
-                assert!((farthest - 1.0).abs() < 0.09, "{case}: {found:?} {farthest} {is_open}");
-            }
-        }
-        assert!(open > 500 && closed > 500, "{open} {closed}");
+/// How far the corners of a cell may be, from its neighbors' offsets, nearest first; 0 without any.
+fn widest_gap(offsets: &[DVec3]) -> f64 {
+    let Some(sixth) = offsets.get(5).or(offsets.last()).map(|offset| offset.length()) else { return 0.0 };
+    let first = offsets.first().copied().unwrap_or_default();
+    let off_line = |offset: &DVec3, part: f64| {
+        offset.cross(first).length_squared()
+            > (part * part) * offset.length_squared() * first.length_squared()
+    };
+    let is_line = offsets.len() > LINE && !offsets[..LINE].iter().any(|offset| off_line(offset, LINE_WIDTH));
+    let beside =
+        || offsets[LINE..].iter().find(|offset| off_line(offset, BESIDE_LINE)).map(|offset| offset.length());
+    match is_line.then(beside).flatten() {
+        Some(beside) if beside < WIDEST_BETWEEN_LINES * sixth => beside.max(WIDEST_GAP * sixth),
+        _ => WIDEST_GAP * sixth,
     }
 }
+
+#[cfg(test)]
+mod tests;

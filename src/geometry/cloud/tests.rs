@@ -1,4 +1,5 @@
 mod given;
+mod rims;
 mod surfaces;
 
 use std::path::Path;
@@ -247,7 +248,7 @@ fn given_normals_stay_and_keep_the_sides_of_a_plate_apart() {
     given.normals = Some(normals.clone());
     let (splats, report) = splats_from_points(given.clone(), &());
     assert_eq!(disks(&splats).0, normals);
-    assert_eq!(report.to_string(), "10000 points: radii found from 12 neighbors each; 1 radius limited");
+    assert_eq!(report.to_string(), "10000 points: radii found from 12 neighbors each");
     // Not by disks of the other side.
     let upper: Vec<bool> = samples.iter().map(|s| s.1.z > 0.0).collect();
     let mut half = splats.clone();
