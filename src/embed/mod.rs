@@ -24,7 +24,10 @@ mod update;
 mod view;
 
 pub use crate::{
-    graph::ImageState,
+    graph::{
+        ImageState,
+        execute::{FrameProfile, PassCounts, PassProfile},
+    },
     passes::MissingPipelines,
     prepare::{DynamicBuffers, DynamicSplats, NO_TINT, Placed, PreparedScene, dynamic},
     renderer::Renderer,

@@ -25,6 +25,7 @@ const INTERFACE: &[(&[&str], &[&str])] = &[
     (&["prepare/"], &["Placed", "NO_TINT", "PreparedScene", "DynamicSplats", "DynamicBuffers"]),
     (&["prepare/dynamic.rs"], &["disk", "color"]),
     (&["graph/resource.rs"], &["ImageState"]),
+    (&["graph/execute/profiler.rs"], &["FrameProfile", "PassProfile", "PassCounts"]),
     (&["vk/"], &["Device", "Features", "FeaturesApart", "Import", "Requirements", "requirements"]),
     (&["vk/memory.rs", "vk/host_memory.rs"], &["HostMemory", "MemoryRequest", "MemoryUse", "HostAllocation"]),
     (

@@ -38,7 +38,8 @@ pub struct CameraArguments {
     pub azimuth: Option<f64>,
 
     /// The eye's height above the horizon in degrees, 90 above, -90 below [default: 0; where a
-    /// file or its shape says what is up, up to 30 if the whole is lower than wide]
+    /// file or its shape says what is up, up to 30 if the whole is lower than wide; 20 or 30 of
+    /// what is flat or edge-on in front]
     #[arg(long, value_name = "DEG", value_parser = parse::number("degrees", -90.0..=90.0), allow_hyphen_values = true)]
     pub elevation: Option<f64>,
 
@@ -48,7 +49,7 @@ pub struct CameraArguments {
     pub target: Option<Target>,
 
     /// The direction that is up: x, y, z, -x, -y, -z, a direction such as 0,0.5,1, or auto: as the files or the scene file say; else z
-    /// where the shape is plainly that of a map or a terrain, or stands on a floor; else y [default: auto]
+    /// or y where the shape is plainly that of a map or a terrain, or stands on a floor; else y [default: auto]
     #[arg(long, value_name = "UP", value_parser = up::parse, allow_hyphen_values = true)]
     pub up: Option<Up>,
 

@@ -136,10 +136,14 @@ const MOST_NAMES: usize = 8;
 fn as_shaped(parts: CameraParts, loaded: &Loaded) -> CameraParts {
     let up = found_up(parts, loaded);
     let parts = CameraParts { up: parts.up.or(up), ..parts };
-    let Some(front) = parts.front() else { return parts };
+    let raised = if up.is_some() { parts.from_above(loaded.extent()) } else { parts };
+    let Some(front) = parts.front() else { return raised };
     if is_flat_in_front(&loaded.scene, front) {
         console::say("seen from a corner, because its front is one flat side; --view front if not");
         return parts.from_corner();
+    }
+    if raised != parts {
+        return raised;
     }
     if let Some((words, seen)) = beside_its_edge(parts, front, &loaded.scene) {
         console::say(&format!(
@@ -147,7 +151,7 @@ fn as_shaped(parts: CameraParts, loaded: &Loaded) -> CameraParts {
         ));
         return seen;
     }
-    if up.is_some() { parts.from_above(loaded.extent()) } else { parts }
+    parts
 }
 
 /// From above, the right or the left, what is edge-on from the front.
