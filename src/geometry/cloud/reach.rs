@@ -59,7 +59,7 @@ impl Reach {
 const BEYOND: f64 = 2.5;
 
 /// How far a corner is that may be outside of the surface, in radii of the circle: farther than most inside.
-const FAR: f32 = 0.45;
+const FAR: f32 = 0.7;
 
 /// How far those are along its direction, at most, that close a gap with it, in distances of the corner.
 const FARTHEST: f32 = 2.5;
