@@ -4,6 +4,7 @@ mod bounded;
 mod cells;
 mod clip;
 mod cloud;
+mod core_ball;
 mod creases;
 mod eigen;
 mod facing;
@@ -28,6 +29,7 @@ mod turns;
 mod up;
 
 pub use cloud::{CloudReport, Sides, splats_from_points};
+pub use core_ball::{Core, core};
 pub use facing::{is_flat_in_front, share_facing};
 pub use fitness::{Fitness, Suited};
 pub use hybrid::{

@@ -2,7 +2,7 @@
 //!
 //! Most models have +y up, and most maps and scans +z; a wrong guess of the one is no better than a wrong guess of the other. So
 //! +z or +y is told only where the shape is hardly anything else, and nothing of other directions. What is closed is a
-//! thing, not a place, and left out. The rules, of which one has to hold of one of the two for at least [`FEWEST`] splats or triangles:
+//! thing, not a place, and left out but for the first rule. The others need [`FEWEST`] splats or triangles; one has to hold of one of the two:
 //!
 //! 1. **A place on a map**, for +z: x and y are large against the scene's own size, as easting and northing are, and z, a height, is not.
 //! 2. **A terrain**: at least 4 times as long along the other two axes as along this one, but no plane, and 90% of its area slopes by less
@@ -52,10 +52,11 @@ impl Piece {
 
 /// +z or +y, where the scene's shape tells that it is up; `None` where it tells nothing.
 pub fn up_of_shape(scene: &Scene) -> Option<FoundUp> {
+    if scene.bounds().is_some_and(|bounds| is_on_a_map(&bounds)) {
+        return Some(FoundUp { direction: DVec3::Z, because: "its x and y are those of a map".to_owned() });
+    }
     let pieces = open_pieces(scene)?;
-    let bounds = bounds_of(&pieces)?;
-    let along_z =
-        if is_on_a_map(&bounds) { Some("its x and y are those of a map") } else { shape_of(&pieces) };
+    let along_z = shape_of(&pieces);
     let turned: Vec<Piece> = pieces.iter().map(Piece::with_y_as_z).collect();
     let (direction, because) = match (along_z, shape_of(&turned)) {
         (Some(because), None) => (DVec3::Z, because),

@@ -47,7 +47,7 @@ use crate::{
     error::{Error, Result},
     notes::Deed,
     progress::Progress,
-    scene::Object,
+    scene::{Colors, Mesh, Object, Points, Splats},
 };
 use input::Input;
 
@@ -152,10 +152,24 @@ fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress)
         loaded.note(Deed::Ignored, uncut, what);
         loaded.note(Deed::Dropped, unused as u64, "vertices without a face");
     }
+    show_what_is_invisible(&mut loaded);
     if let Some(packing) = source.packing {
         loaded.format = format!("{} in {}", loaded.format, packing.name());
     }
     Ok(loaded)
+}
+
+/// Makes a model opaque whose every alpha is 0: writers that have none leave it so, and nothing would be seen.
+fn show_what_is_invisible(loaded: &mut Loaded) {
+    let (Model::Splats { splats: Splats { colors, .. }, .. }
+    | Model::Points(Points { colors, .. })
+    | Model::Mesh(Mesh { colors, .. })) = &mut loaded.model;
+    let Colors::Each(colors) = colors else { return };
+    if colors.iter().all(|[.., alpha]| *alpha == 0.0) {
+        colors.iter_mut().for_each(|[.., alpha]| *alpha = 1.0);
+        let count = colors.len() as u64;
+        loaded.note(Deed::Replaced, count, "alphas that are all 0, by 1,");
+    }
 }
 
 /// A model of nothing is no scene, and all that would be said of it later is beside the point.

@@ -33,14 +33,21 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     let mut lines = Lines::new(input, Some(b'#'));
     let first = lines.expect("OFF")?;
     let is_number = |word: &[u8]| word.iter().all(u8::is_ascii_digit);
-    let name = first.words().next().filter(|word| !is_number(word));
+    let word = first.words().next().filter(|word| !is_number(word));
+    // Some writers leave out what should stand between the word and the first count.
+    let digits = word.map_or(0, |word| word.iter().rev().take_while(|byte| byte.is_ascii_digit()).count());
+    let glued = word.is_some_and(|word| digits > 0 && first.words().nth(1).is_some() && word.len() > digits);
+    let (name, count) = match word {
+        Some(word) if glued => word.split_at_checked(word.len() - digits).unzip(),
+        word => (word, None),
+    };
     let kind = kind(name.unwrap_or(b"OFF")).map_err(|problem| lines.fault(first, problem))?;
     if first.words().nth(1).is_some_and(|word| word.eq_ignore_ascii_case(b"BINARY")) {
         return Err(lines.fault(first, "a binary OFF file; expected one of text"));
     }
     // The counts may stand behind the name.
-    let mut words: Box<dyn Iterator<Item = &[u8]>> =
-        Box::new(first.words().skip(usize::from(name.is_some())));
+    let behind = first.words().skip(usize::from(name.is_some()));
+    let mut words: Box<dyn Iterator<Item = &[u8]>> = Box::new(count.into_iter().chain(behind));
     let mut place = first;
     if name.is_some() && first.words().nth(1).is_none() {
         place = lines.expect("the numbers of vertices and faces")?;

@@ -38,7 +38,7 @@ where
 }
 
 /// What is black and what white among intensities: 0, or the least where it is below 0, and the largest. Where an end is further from the
-/// other 96% than those from each other (a mirror, a mark for no value), the end of those is taken instead.
+/// middle 80% than those from each other (a mirror, a mark for no value), the end of those is taken instead.
 pub(super) fn range_of<T>(intensities: &[T]) -> [f32; 2]
 where
     T: Copy + Into<f32> + Sync,
@@ -52,7 +52,7 @@ where
     sorted.sort_unstable_by(f32::total_cmp);
     let last = sorted.len().saturating_sub(1);
     let at = |i: usize| sorted.get(i).copied().unwrap_or_default();
-    let [low, high] = [at(last / 50).min(0.0), at(last - last / 50)];
+    let [low, high] = [at(last / 10).min(0.0), at(last - last / 10)];
     let range = high - low;
     let is_far = |by: f32| range > 0.0 && by > range;
     [if is_far(low - least) { low } else { least }, if is_far(largest - high) { high } else { largest }]
@@ -115,13 +115,13 @@ mod tests {
         let ramp = || (0..=2000).map(|i| i as f32);
         let with = |few: &[f32]| range_of(&ramp().chain(few.iter().copied()).collect::<Vec<f32>>());
         assert_eq!(with(&[]), [0.0, 2000.0]);
-        assert_eq!(with(&[65_535.0]), [0.0, 1961.0]);
+        assert_eq!(with(&[65_535.0]), [0.0, 1801.0]);
         assert_eq!(with(&[3000.0, f32::INFINITY]), [0.0, 3000.0], "as far as a bright thing is");
-        assert_eq!(with(&[-9999.0, 65_535.0]), [0.0, 1961.0]);
+        assert_eq!(with(&[-9999.0, 65_535.0]), [0.0, 1801.0]);
         assert_eq!(with(&[-300.0]), [-300.0, 2000.0]);
-        let [mut mirrors, mut dark] = [vec![65_535.0_f32; 100], vec![0.0_f32; 5000]];
+        let [mut mirrors, mut dark] = [vec![65_535.0_f32; 300], vec![0.0_f32; 5000]];
         mirrors.extend(ramp());
-        assert_eq!(range_of(&mirrors), [0.0, 65_535.0], "a twentieth is a part of the scene");
+        assert_eq!(range_of(&mirrors), [0.0, 65_535.0], "an eighth is a part of the scene");
         dark.push(9.0);
         assert_eq!(range_of(&dark), [0.0, 9.0]);
         assert_eq!(gray(&[[0.0, 1.0].repeat(500), vec![500.0]].concat()).1, 1);

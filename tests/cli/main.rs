@@ -27,6 +27,7 @@ mod program;
 mod refusals;
 mod report;
 mod scene_file;
+mod seen;
 mod selftest;
 mod shown;
 mod told;

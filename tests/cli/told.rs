@@ -8,12 +8,12 @@ use super::{
 const SIZE: [&str; 2] = ["--size", "64x64"];
 
 /// Rows of numbers.
-fn rows(points: impl IntoIterator<Item = [f64; 3]>) -> String {
+pub fn rows(points: impl IntoIterator<Item = [f64; 3]>) -> String {
     points.into_iter().map(|[x, y, z]| format!("{x} {y} {z}\n")).collect()
 }
 
 /// A grid of points, at this height.
-fn grid(side: u32, z: f64) -> impl Iterator<Item = [f64; 3]> {
+pub fn grid(side: u32, z: f64) -> impl Iterator<Item = [f64; 3]> {
     (0..side).flat_map(move |y| (0..side).map(move |x| [f64::from(x), f64::from(y), z]))
 }
 
@@ -165,51 +165,6 @@ fn options_that_a_scene_file_has_keys_for_are_not_ignored_in_silence() {
 }
 
 #[test]
-fn what_may_lie_on_its_back_is_doubted() {
-    let folder = Folder::new();
-    let walls = grid(41, 0.0)
-        .filter(|[_, z, _]| *z > 0.0 && *z < 12.0)
-        .flat_map(|[along, z, _]| [[along, 0.0, z], [along, 40.0, z], [0.0, along, z], [40.0, along, z]]);
-    let room: Vec<[f64; 3]> = grid(41, 0.0).chain(grid(41, 12.0)).chain(walls).collect();
-    folder.write("room.xyz", rows(room.iter().copied()));
-    folder.write("cube.obj", CUBE);
-    folder.write("eye.toml", "[[object]]\nfile = \"cube.obj\"\n[camera]\neye = [3, 2, 5]\n");
-    let doubt = "up is +y, since nothing says otherwise; --up z if it lies on its back\n";
-    for (words, doubted) in [
-        (&["room.xyz"][..], 1),
-        (&["room.xyz", "--up", "z"], 0),
-        (&["room.xyz", "--up", "y"], 0),
-        (&["cube.obj"], 1),
-        (&["eye.toml"], 0),
-        (&[], 0),
-    ] {
-        let run = done(&folder, &[&["render"], words, &SIZE].concat());
-        assert_eq!(run.stderr.matches(doubt).count(), doubted, "{words:?}: {}", run.stderr);
-    }
-}
-
-#[test]
-fn what_is_edge_on_from_the_front_is_seen_from_beside() {
-    let folder = Folder::new();
-    for (name, place, from) in [
-        ("ground", (|[x, y, _]| [x, 0.0, y]) as fn([f64; 3]) -> [f64; 3], "above"),
-        ("wall", |[x, y, _]| [0.0, x, y], "the right"),
-        ("slanted", |[x, y, _]| [x, y, -x], "above"),
-        ("front", |place| place, ""),
-    ] {
-        let file = format!("{name}.xyz");
-        folder.write(&file, rows(grid(41, 0.0).map(place)));
-        let run = done(&folder, &[&["render", &file], &SIZE[..]].concat());
-        let told = format!("seen from {from}, because from the front it is edge-on; --view front if not\n");
-        let is_told = name != "front" && name != "slanted";
-        assert_eq!(run.stderr.contains(&told), is_told, "{name}: {}", run.stderr);
-        assert!(!run.stderr.contains("nothing is seen"), "{name}: {}", run.stderr);
-        let front = done(&folder, &[&["render", &file, "--view", "front"], &SIZE[..]].concat());
-        assert!(!front.stderr.contains("seen from"), "{name}: {}", front.stderr);
-    }
-}
-
-#[test]
 fn why_a_file_is_refused_is_the_only_line() {
     let folder = Folder::new();
     folder.write("good.xyz", rows(grid(5, 0.0)));
@@ -246,22 +201,4 @@ fn sizes_of_points_are_radii_or_are_told_to_be_ignored() {
     assert!(
         surfel(&folder, &["convert", "pixels.ply", "b.ply", "--strict"]).stderr.contains("no lengths here")
     );
-}
-
-#[test]
-fn inputs_that_are_far_apart_are_told() {
-    let folder = Folder::new();
-    let at = |x: f64| rows(grid(5, 0.0).map(move |[a, y, z]| [a + x, y, z]));
-    folder.write("here.xyz", at(0.0));
-    folder.write("there.xyz", at(4.6e6));
-    folder.write("near.xyz", at(900.0));
-    let told = "the inputs are so far apart that none is seen";
-    let far = done(&folder, &["render", "here.xyz", "there.xyz", "--size", "64x64"]).stderr;
-    assert!(far.contains(told) && far.contains("there.xyz is at 4600002,2,0"), "{far}");
-    for words in [&["here.xyz", "near.xyz"][..], &["there.xyz"]] {
-        let run = done(&folder, &[&["render"], words, &SIZE].concat());
-        assert!(!run.stderr.contains(told), "{words:?}: {}", run.stderr);
-    }
-    let info = done(&folder, &["info", "here.xyz", "--up", "z"]).stdout;
-    assert!(info.contains("up        0,0,1, because --up says so"), "{info}");
 }

@@ -2,11 +2,16 @@
 
 use glam::DVec3;
 use surfel::{
+    Progress as _,
+    geometry::{Core, core},
     prepare::Rebase,
     scene::{Ball, Bounds, Scene},
 };
 
-use crate::{console, info::number};
+use crate::{
+    console::{self, Bars},
+    info::number,
+};
 
 /// So many times the scene's radius from (0, 0, 0), 32 bits would leave less than a 100 000th of the radius: 2^-24 of 168 is that.
 const FAR: f64 = 168.0;
@@ -45,9 +50,40 @@ fn tell_apart(scene: &Scene, ball: &Ball) {
     }
 }
 
+/// The ball that a picture shows: of the whole scene, or of most of it where the rest is so far away that nothing else would be seen.
+pub fn seen(scene: &Scene, whole: &Ball, bars: &Bars) -> Ball {
+    let Some(Core { ball, share }) = core(scene, whole) else { return *whole };
+    let zoom = ball.radius / whole.radius;
+    bars.note(&format!(
+        "the view is of {:.1}% of the scene: the rest is up to {} times as far away; --zoom {} shows all",
+        100.0 * share,
+        number((1.0 / zoom).round()),
+        number((zoom * 1e6).floor().max(1.0) / 1e6)
+    ));
+    ball
+}
+
+/// What is so many times as high as wide is no thing, if it may be a place in degrees.
+const HIGH: f64 = 300.0;
+
+/// Tells of places that may be longitudes and latitudes in degrees, beside heights.
+fn tell_degrees(scene: &Scene) {
+    let Some(Bounds { min, max }) = scene.bounds() else { return };
+    let is_place = min.x >= -180.0 && max.x <= 180.0 && min.y >= -90.0 && max.y <= 90.0;
+    let is_away = min.x * max.x > 1.0 && min.y * max.y > 1.0;
+    let extent = max - min;
+    if is_place && is_away && extent.z > HIGH * extent.x.max(extent.y) {
+        console::say(
+            "x and y may be longitude and latitude in degrees, beside heights: expected lengths, so project them first, or call the columns lon \
+             and lat",
+        );
+    }
+}
+
 /// Tells it, and of what is far apart.
 pub fn tell(scene: &Scene, ball: &Ball) {
     tell_apart(scene, ball);
+    tell_degrees(scene);
     if let Some(origin) = shift(scene, ball.radius) {
         let origin = origin.to_array().map(number).join(",");
         console::say(&format!("the origin is moved to {origin} on the device, as its numbers have 32 bits"));

@@ -55,7 +55,11 @@ pub fn of(files: Vec<(DVec3, String)>, bars: &Bars) -> Option<FoundUp> {
         let [first, second] = [*direction, *other].map(word);
         bars.note(&format!("{of}: has {second} up, and {name} {first}, which is taken; --up says otherwise"));
     }
-    Some(FoundUp { direction: *direction, because: format!("{name} says so") })
+    let because = match name.to_ascii_lowercase().contains(".stl") {
+        true => format!("{name} has it, as most STL files"),
+        false => format!("{name} says so"),
+    };
+    Some(FoundUp { direction: *direction, because })
 }
 
 /// Whether a camera looks along a direction, and has another one up in the picture.

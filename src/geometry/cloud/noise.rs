@@ -29,9 +29,15 @@ const THICKER: f64 = 1.2;
 /// So many points tell of all.
 const SAMPLES: usize = 200;
 
+/// Whether neighbors are too few to tell noise from the turn of a surface.
+fn is_small(tree: &Tree) -> bool {
+    tree.points().len() <= 4 * MOST_NEIGHBORS
+}
+
 /// The normals at all points, on one side of each surface, if those of 12 neighbors are too noisy and coarser ones are not.
 pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
-    if thickness(tree, tree, NEIGHBORS) <= FLAT {
+    let fine = thickness(tree, tree, NEIGHBORS);
+    if fine <= FLAT || is_small(tree) {
         return None;
     }
     let (mut least, mut flattest) = (thickness(tree, tree, MOST_NEIGHBORS), None);
@@ -46,7 +52,8 @@ pub(super) fn normals(tree: &Tree) -> Option<Vec<DVec3>> {
         }
     }
     let coarse = flattest.as_ref().unwrap_or(tree);
-    (least <= THICKEST).then(|| patches::normals(tree, coarse, MIXED.max(THICKER * least)))
+    // Of more neighbors noise is thinner; what turns fast, or has few points, is thicker.
+    (least <= THICKEST && least < fine).then(|| patches::normals(tree, coarse, MIXED.max(THICKER * least)))
 }
 
 /// The median thickness of planes through so many points of `among` that are nearest to a point; 0 of too few points to tell.

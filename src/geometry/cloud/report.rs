@@ -86,7 +86,8 @@ impl fmt::Display for CloudReport {
             (false, true) => "normals",
             _ => "radii",
         };
-        let neighbors = if self.noisy { MOST_NEIGHBORS } else { NEIGHBORS };
+        let most = if self.noisy { MOST_NEIGHBORS } else { NEIGHBORS };
+        let neighbors = most.min(splats.saturating_sub(1));
         let number =
             |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
         let turned = match self.normals_from_file >= splats {

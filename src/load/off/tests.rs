@@ -42,6 +42,13 @@ fn the_word_may_be_small_or_left_out() {
 }
 
 #[test]
+fn the_first_count_may_be_glued_to_the_word() {
+    let glued = SQUARE.replacen("OFF # a square\n4 1 0", "OFF4 1 0", 1);
+    assert_eq!((mesh(&glued).triangles.len(), load(&glued).format), (2, "OFF (OFF)".to_owned()));
+    refuses("OFF4\n1 0\n", "line 1: 'OFF4'; expected OFF");
+}
+
+#[test]
 fn vertices_have_what_the_letters_say() {
     let text = "STCN4OFF 3 1 0\n2 4 6 2 0 0 1 255 0 51 0 .5 .5\n1 0 0 1 0 0 1 255 0 51 51 0 0\n0 1 0 1 0 0 1 0 0 0 255 1 1\n\
         3 0 1 2\n";

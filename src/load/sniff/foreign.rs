@@ -2,7 +2,7 @@
 //! them.
 
 /// First bytes, and what they are.
-const BY_FIRST_BYTES: [(&[u8], &str); 23] = [
+const BY_FIRST_BYTES: [(&[u8], &str); 26] = [
     (b"version https://git-lfs", "a git-lfs pointer, not the file itself (run `git lfs pull`)"),
     (b"\x89SURFEL", "a hierarchy of splats, which `surfel render` and `surfel info` take by themselves"),
     (b"PK\x03\x04", "a zip archive (unpack it first)"),
@@ -24,6 +24,9 @@ const BY_FIRST_BYTES: [(&[u8], &str); 23] = [
     (b"DRACO", "a Draco model"),
     (b"#VRML", "a VRML model"),
     (b"# vtk", "a VTK file"),
+    (b"ISO-10303-21", "a STEP model (save it as STL or OBJ)"),
+    (b"#usda", "a USD scene (export a model of it)"),
+    (b"PXR-USDC", "a USD scene (export a model of it)"),
     (b"\xff\xfe", "text in UTF-16 (save it as UTF-8)"),
     (b"\xfe\xff", "text in UTF-16 (save it as UTF-8)"),
 ];
@@ -44,5 +47,18 @@ pub(super) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     let text =
         super::words::without_mark(bytes.get(..super::PROBE_BYTES).unwrap_or(bytes)).trim_ascii_start();
     let starts_with = |words: &[u8]| text.get(..words.len()).is_some_and(|t| t.eq_ignore_ascii_case(words));
+    if is_dxf(text) {
+        return Some("a DXF drawing (save it as STL or OBJ)");
+    }
+    // The name of an archive's first file ends with zeros.
+    if bytes.get(257..262) == Some(b"ustar") {
+        return Some("a tar archive (unpack it first)");
+    }
     BY_FIRST_WORDS.iter().find(|(words, _)| starts_with(words)).map(|(_, what)| *what)
+}
+
+/// A group code 0 and `SECTION`.
+fn is_dxf(text: &[u8]) -> bool {
+    let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    words.next() == Some(b"0") && words.next() == Some(b"SECTION")
 }

@@ -117,7 +117,7 @@ pub(super) fn format(path: &Path, name: &Path, bytes: &[u8]) -> Result<Format> {
         (None, "toml") => refuse("this is a scene file"),
         (None, "obj") => Ok(Format::Obj),
         (None, "gltf") if is_json(probe) => Ok(Format::Gltf),
-        (None, "xyz" | "pts" | "csv" | "txt" | "asc") => Ok(Format::Rows),
+        (None, "xyz" | "pts" | "ptx" | "csv" | "txt" | "asc") => Ok(Format::Rows),
         (None, _) if is_json(probe) => refuse("this is JSON, but neither glTF nor the metadata of Potree 2"),
         (None, "ply") => refuse("named .ply, but its first line is not 'ply'"),
         (None, _) => refuse("text of an unknown format"),

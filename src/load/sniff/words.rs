@@ -51,6 +51,8 @@ pub(in crate::load) fn without_mark(bytes: &[u8]) -> &[u8] {
 
 /// `OFF`, and before it what vertices have: texture coordinates, colors, normals, a fourth coordinate, their number.
 fn is_off(word: &[u8]) -> bool {
+    let digits = word.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
+    let word = word.get(..word.len() - digits).unwrap_or(word);
     word.strip_suffix(b"OFF")
         .or(word.strip_suffix(b"off"))
         .is_some_and(|prefix| prefix.len() <= 6 && prefix.iter().all(|b| b"STCN4n".contains(b)))

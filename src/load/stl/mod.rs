@@ -8,6 +8,8 @@ mod tests;
 mod text;
 mod weld;
 
+use glam::DVec3;
+
 use super::{Input, Loaded, Model};
 use crate::{
     error::Result,
@@ -100,6 +102,8 @@ fn loaded(corners: Vec<[f32; 3]>, format: &str) -> Loaded {
         triangles: welded.triangles,
     };
     let mut loaded = Loaded::new(Model::Mesh(mesh), format);
+    // As nearly all programs that write them have it.
+    loaded.up = Some(DVec3::Z);
     loaded.note(Deed::Dropped, welded.degenerate, "triangles with two corners at one place");
     loaded
 }

@@ -1,5 +1,3 @@
-use glam::DVec3;
-
 use super::*;
 use crate::load::{hostile::attack, input::of_bytes};
 

@@ -29,8 +29,8 @@ const NAMES: [&str; SLOTS] = ["x", "y", "z", "i", "r", "g", "b", "nx", "ny", "nz
 
 /// What headers call the columns of [`NAMES`], in lower case.
 const ALIASES: [&[&str]; SLOTS] = [
-    &["x", "easting", "east", "px", "pos_x", "position_x", "points:0", "points_0"],
-    &["y", "northing", "north", "py", "pos_y", "position_y", "points:1", "points_1"],
+    &["x", "easting", "east", "e", "rechtswert", "px", "pos_x", "position_x", "points:0", "points_0"],
+    &["y", "northing", "north", "n", "hochwert", "py", "pos_y", "position_y", "points:1", "points_1"],
     &[
         "z",
         "height",
@@ -38,6 +38,10 @@ const ALIASES: [&[&str]; SLOTS] = [
         "altitude",
         "elev",
         "alt",
+        "h",
+        "höhe",
+        "hoehe",
+        "h\u{fffd}he",
         "pz",
         "pos_z",
         "position_z",
@@ -101,7 +105,7 @@ fn plain(name: &str) -> String {
 }
 
 /// The columns of rows of numbers, from the left: `x,y,z,-,r,g,b` as text. Columns behind the last are not read.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Columns(Vec<Column>);
 
 impl Columns {

@@ -45,6 +45,15 @@ impl Writing {
         Fields { rest: Some(line), between: self.between }
     }
 
+    /// Whether the last word of a line is empty, which [`Writing::fields`] does not count.
+    pub fn ends_empty(self, line: &[u8]) -> bool {
+        match self.between {
+            Between::Blanks => false,
+            Between::Comma => line.ends_with(b","),
+            Between::Semicolon => line.ends_with(b";"),
+        }
+    }
+
     /// The number that a word is.
     pub fn number(self, word: &[u8]) -> Option<f64> {
         number(word, self.decimal_comma)

@@ -12,9 +12,10 @@
 //! | 10 | x y z, intensity, red green blue and a normal, in either order |
 //! | others | x y z; the others are not read |
 //!
-//! A first column before three others that counts the rows, from any number and one by one, is not read.
+//! of those that are left by [`by_numbers`]. Lines of `points3D.txt`, as COLMAP writes it, are a number, x y z, red green blue and more.
 
 use super::{
+    by_numbers,
     columns::{Column, Columns},
     fields::Writing,
 };
@@ -45,7 +46,7 @@ pub(super) type Fault = (usize, String);
 /// The file's layout.
 pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
     let line_end = if input.bytes.contains(&b'\n') { b'\n' } else { b'\r' };
-    let (mut comment, mut header, mut count) = (None, None, None);
+    let (mut comment, mut header, mut count, mut of_colmap) = (None, None, None, false);
     let most = input.options.limits.line_bytes;
     let start = input.bytes.len() - without_mark(input.bytes).len();
     for line in (Lines { bytes: input.bytes, at: start, line_end, most }) {
@@ -54,7 +55,12 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
             continue;
         }
         if let Some(text) = comment_text(line) {
+            of_colmap |= text.trim_ascii_start().starts_with(b"POINT3D_ID");
             comment = Some(text);
+            continue;
+        }
+        // How programs of tables tell each other what stands between words.
+        if line.get(..4).is_some_and(|start| start.eq_ignore_ascii_case(b"sep=")) && header.is_none() {
             continue;
         }
         let writing = Writing::of(line);
@@ -62,7 +68,9 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
         let place =
             if is_alone { 0 } else { first_read(input, header.map(|(_, line)| line), comment, writing) };
         let first = writing.fields(line).nth(place).or(writing.fields(line).next()).unwrap_or_default();
-        match (writing.number(first), is_alone) {
+        let rest = Lines { bytes: input.bytes, at, line_end, most };
+        let is_row = writing.number(first).is_some() || header.is_none() && is_row_with_words(writing, rest)?;
+        match (is_row.then_some(()), is_alone) {
             (Some(_), true) if count.is_none() => count = Some((at, line)),
             (Some(_), true) => {
                 return Err((
@@ -72,9 +80,11 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
             }
             (Some(_), false) => {
                 let start = count.map_or(at, |(at, _)| at);
-                let rest = Lines { bytes: input.bytes, at, line_end, most };
                 let Found { columns, ignored, geographic } =
-                    columns(input, writing, at, header, comment, rest)?;
+                    match of_colmap && input.options.columns.is_none() {
+                        true => colmap(),
+                        false => columns(input, writing, at, header, comment, rest)?,
+                    };
                 let counted = count.is_some();
                 return Ok(Layout { writing, columns, geographic, ignored, start, counted, line_end });
             }
@@ -89,13 +99,34 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
     }
 }
 
+/// Whether a line has words and three numbers or more, and the next line has them in the same places: no header has.
+fn is_row_with_words(writing: Writing, lines: Lines<'_>) -> Result<bool, Fault> {
+    let mut kinds = Vec::new();
+    for line in lines {
+        let (_, line) = line?;
+        if !line.is_empty() && comment_text(line).is_none() {
+            kinds.push(writing.fields(line).map(|word| writing.number(word).is_some()).collect::<Vec<_>>());
+        }
+        if let [first, second] = &kinds[..] {
+            return Ok(first == second && first.iter().filter(|is_number| **is_number).count() >= 3);
+        }
+    }
+    Ok(false)
+}
+
+/// The columns of `points3D.txt`, by its description in COLMAP's documentation.
+fn colmap() -> Found<Columns> {
+    let columns = "-,x,y,z,r,g,b".parse().unwrap_or_else(|_| Columns::default());
+    Found { columns, ignored: vec!["errors and tracks".to_owned()], geographic: false }
+}
+
 fn too_long(most: usize) -> String {
     format!("a line of more than {most} bytes; expected a row of numbers")
 }
 
 /// The text of a comment.
 pub(super) fn comment_text(line: &[u8]) -> Option<&[u8]> {
-    line.strip_prefix(b"#").or_else(|| line.strip_prefix(b"//"))
+    [&b"#"[..], b"//", b"%"].iter().find_map(|mark| line.strip_prefix(*mark))
 }
 
 /// The place in a row of the first number that is read; what stands before it, a time or a name, may be anything.
@@ -164,7 +195,8 @@ fn columns(
     }
     if let Some((at, line)) = header {
         let Found { columns, ignored, geographic } = of_header(line, writing);
-        let columns = Columns::new(columns).map_err(|problem| (at, format!("header: {problem}")))?;
+        let columns = Columns::new(columns)
+            .map_err(|problem| (at, format!("header: {problem}, or --columns to name them")))?;
         return Ok(Found { columns, ignored, geographic });
     }
     if let Some(Found { columns, ignored, geographic }) = comment.map(named)
@@ -174,10 +206,7 @@ fn columns(
         return Ok(Found { columns, ignored, geographic });
     }
     let samples = samples(writing, width, Lines { at, ..rows })?;
-    let columns = match width > 3 && counts_rows(&samples) {
-        true => [&[Column::Other], &by_width(width - 1, &without_first(samples))[..]].concat(),
-        false => by_width(width, &samples),
-    };
+    let columns = by_numbers::columns(width, &samples);
     let ignored = (1..).zip(&columns).filter(|(_, column)| **column == Column::Other);
     let ignored = ignored.map(|(i, _)| format!("column {i}")).collect();
     match Columns::new(columns) {
@@ -188,10 +217,10 @@ fn columns(
 
 /// Rows from the start and from all over the file; those that are wrong are left to their reader, but for a line that is
 /// too long: it would be looked at again and again.
-fn samples(writing: Writing, width: usize, lines: Lines<'_>) -> Result<Vec<Vec<f64>>, Fault> {
-    let row = |line: &[u8]| -> Option<Vec<f64>> {
-        let row: Option<Vec<f64>> = writing.fields(line).map(|word| writing.number(word)).collect();
-        row.filter(|row| row.len() == width)
+fn samples(writing: Writing, width: usize, lines: Lines<'_>) -> Result<Vec<Vec<Option<f64>>>, Fault> {
+    let row = |line: &[u8]| {
+        let row: Vec<Option<f64>> = writing.fields(line).map(|word| writing.number(word)).collect();
+        (row.len() == width && comment_text(line).is_none()).then_some(row)
     };
     // A row of more columns has no rule.
     if width > 10 {
@@ -211,58 +240,6 @@ fn samples(writing: Writing, width: usize, lines: Lines<'_>) -> Result<Vec<Vec<f
         }
     }
     Ok(rows)
-}
-
-/// Whether the first numbers count the rows: one by one in all that are together at the start, and upward in those from all over the file,
-/// which start again.
-fn counts_rows(rows: &[Vec<f64>]) -> bool {
-    let firsts: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
-    let one_by_one = |pair: &&[f64]| matches!(pair, [a, b] if a.fract() == 0.0 && b - a == 1.0);
-    let together = firsts.windows(2).take_while(one_by_one).count() + 1;
-    let others = firsts.get(together..).unwrap_or_default();
-    together >= FEWEST_COUNTED && others.is_sorted() && others.iter().all(|number| number.fract() == 0.0)
-}
-
-/// Fewer rows may count by accident.
-const FEWEST_COUNTED: usize = 10;
-
-fn without_first(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    rows.iter_mut().for_each(|row| drop(row.drain(..1)));
-    rows
-}
-
-fn by_width(width: usize, rows: &[Vec<f64>]) -> Vec<Column> {
-    use Column::{Color, Intensity, Normal, Position};
-    let position = [0, 1, 2].map(Position);
-    let (color, normal) = ([0, 1, 2].map(Color), [0, 1, 2].map(Normal));
-    let is_normal = |from: usize| is_normal(rows.iter().filter_map(|row| row.get(from..from + 3)));
-    let pair = |from: usize| if is_normal(from) { [normal, color] } else { [color, normal] }.concat();
-    match width {
-        0..=2 => vec![Column::Other; width],
-        4 => [&position[..], &[Intensity]].concat(),
-        6 if is_normal(3) => [position, normal].concat(),
-        6 => [position, color].concat(),
-        7 => [&position[..], &[Intensity], &color].concat(),
-        9 => [&position[..], &pair(3)].concat(),
-        10 => [&position[..], &[Intensity], &pair(4)].concat(),
-        _ => [&position[..], &vec![Column::Other; width - 3]].concat(),
-    }
-}
-
-/// Whether triples are normals: some are below zero, or all but those that are zero have length 1.
-fn is_normal<'a>(triples: impl Iterator<Item = &'a [f64]>) -> bool {
-    let (mut any, mut all_unit) = (false, true);
-    for triple in triples {
-        if triple.iter().any(|&v| v < 0.0) {
-            return true;
-        }
-        let square: f64 = triple.iter().map(|v| v * v).sum();
-        if square > 0.0 {
-            any = true;
-            all_unit &= (square - 1.0).abs() < 0.01;
-        }
-    }
-    any && all_unit
 }
 
 /// The lines of a file, without blanks around them, and the bytes at which they start. One that is too long, with its

@@ -1,6 +1,7 @@
 //! Points as rows of numbers: XYZ, PTS, CSV and whatever else people call it. [`layout`] says which columns are
 //! what.
 
+mod by_numbers;
 mod columns;
 mod fields;
 mod layout;

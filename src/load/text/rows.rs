@@ -80,6 +80,13 @@ fn block(bytes: &[u8], start: usize, end: usize, layout: &Layout, limits: &Limit
     Ok(rows)
 }
 
+/// Whether a word stands for a number that is not there, as tables have it.
+fn is_missing(word: &[u8]) -> bool {
+    ["", "\"\"", "NA", "N/A", "null", "none", "-"]
+        .iter()
+        .any(|name| word.eq_ignore_ascii_case(name.as_bytes()))
+}
+
 impl Rows {
     fn line(
         &mut self,
@@ -97,6 +104,12 @@ impl Rows {
                     self.counts.push((at, count, self.positions.len() as u64));
                     return Ok(());
                 }
+                if i + 1 == slots.len() && layout.writing.ends_empty(line) {
+                    if let Some(value) = slot.and_then(|slot| values.get_mut(slot)) {
+                        *value = f64::NAN;
+                    }
+                    break;
+                }
                 let s = if i == 1 { "" } else { "s" };
                 return Err(format!("{i} number{s} in a row; expected {}", slots.len()));
             };
@@ -104,6 +117,7 @@ impl Rows {
                 *value = layout
                     .writing
                     .number(word)
+                    .or_else(|| is_missing(word).then_some(f64::NAN))
                     .ok_or_else(|| format!("'{}' in column {}; expected a number", shown(word), i + 1))?;
             }
         }

@@ -78,6 +78,43 @@ fn a_first_column_that_counts_rows_is_none_of_the_place() {
 }
 
 #[test]
+fn numbers_of_points_and_words_beside_places_are_not_read() {
+    let rows = |row: &dyn Fn(u32) -> String| -> String { (0..30).map(|i| row(i) + "\n").collect() };
+    for (row, format) in [
+        (
+            &(|i: u32| format!("{},{i}.25,2.5,3.125,GATE", 100 + 3 * i)) as &dyn Fn(u32) -> String,
+            "rows of - x y z -",
+        ),
+        (&|i| format!("P{i} {i}.25 2.5 3.125"), "rows of - x y z"),
+        (&|i| format!("{i}.25 2.5 3.125 wall"), "rows of x y z -"),
+        (&|i| format!("{} {i}.25 2.5 3.125", 7 * i % 30), "rows of - x y z"),
+        (&|i| format!("{} {} {i}.25 2.5 3.125", i / 6, i % 6), "rows of - - x y z"),
+        (&|i| format!("{i}.25 2 3 {i} 0 9 255"), "rows of x y z r g b -, colors 0–255"),
+        (&|i| format!("{i}.25 2 3 {i} 0 9 25"), "rows of x y z i r g b, colors 0–255"),
+        (&|i| format!("{i}.25 2 3 0 -0.6 0.8 4"), "rows of x y z nx ny nz -"),
+    ] {
+        let (points, loaded) = points(&rows(row));
+        assert_eq!((loaded.format.as_str(), points.positions[3].x), (format, 3.25));
+    }
+    let colmap = "# 3D point list\n#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n# Number of points: 2\n\
+        63390 1.67 0.29 3.3 115 121 122 1.34 16 6542 15 7345\n63376 2.01 0.4 3.5 102 209 250 1.73 16 6519\n";
+    let (found, loaded) = points(colmap);
+    assert_eq!((found.positions[1].x, loaded.format.as_str()), (2.01, "rows of - x y z r g b, colors 0–255"));
+    assert_eq!(notes(&loaded), ["1 column (errors and tracks) ignored"]);
+}
+
+#[test]
+fn what_tables_have_beside_numbers_is_read_past() {
+    let (found, loaded) =
+        points("sep=;\nRechtswert;Hochwert;H\u{f6}he;i\n1,5;2;3;4\n% a note\nNA;2;3;4\n2;2;3;\n");
+    assert_eq!((found.positions.len(), found.positions[0].x), (3, 1.5));
+    assert_eq!(
+        (loaded.format.as_str(), found.positions[1].x.is_nan()),
+        ("rows of x y z i, intensity as gray", true)
+    );
+}
+
+#[test]
 fn degrees_become_metres() {
     let (found, loaded) = points("id,Latitude,Longitude,alt\n1,48.10,11.5,520\n2,48.11,11.5,530\n");
     let way = found.positions[1] - found.positions[0];
@@ -172,9 +209,12 @@ fn wrong_rows_are_told_by_their_line() {
     refuses("1 2 3\n\n4 5\n", "line 3: 2 numbers in a row; expected 3");
     refuses("1 2 3\n4\n", "line 2: 1 number in a row; expected 3");
     refuses("1 2 3\r4 5 6x\r", "line 2: '6x' in column 3; expected a number");
-    refuses("1,2,3\n1,,3\n", "line 2: '' in column 2; expected a number");
+    refuses("1,2,3\n1,x,3\n", "line 2: 'x' in column 2; expected a number");
     refuses("1 2\n3 4\n", "line 1: 2 numbers in a row; expected at least 3");
-    refuses("a b c\n1 2 3\n", "line 1: header: no columns x, y and z; expected them");
+    refuses(
+        "a b c\n1 2 3\n",
+        "line 1: header: no columns x, y and z; expected them, or --columns to name them",
+    );
     refuses("x y z\na b c\n", "line 2: 'a'; expected a number");
     refuses("# only\n\n", "line 1: no rows of numbers; expected x y z");
     refuses("x y z\n", "line 1: 'x y z'; expected rows of numbers");
