@@ -26,7 +26,11 @@ const GAP: f64 = 1.5;
 /// So many places tell of all.
 const SAMPLES: usize = 1 << 16;
 
-/// Most of a scene that has this ball, and is far larger than that.
+/// As [`MOST`] and [`FAR`], of parts of about one size, as scans of two systems of coordinates: the one of the first place is seen.
+const PART: f64 = 0.3;
+const APART: f64 = 1000.0;
+
+/// Most of a scene that has this ball, and is far larger than that; of parts that are very far apart the first.
 pub fn core(scene: &Scene, whole: &Ball) -> Option<Core> {
     let places = samples(scene);
     let middle = DVec3::from_array([0, 1, 2].map(|axis: usize| {
@@ -34,18 +38,25 @@ pub fn core(scene: &Scene, whole: &Ball) -> Option<Core> {
         let half = along.len() / 2;
         if along.is_empty() { 0.0 } else { *along.select_nth_unstable_by(half, f64::total_cmp).1 }
     }));
+    let first = *places.first()?;
+    around(&places, middle, MOST, whole.radius / FAR)
+        .or_else(|| around(&places, first, PART, whole.radius / APART))
+}
+
+/// This share of places or more, around a middle, if they are within a radius.
+fn around(places: &[DVec3], middle: DVec3, least: f64, within: f64) -> Option<Core> {
     let mut distances: Vec<f64> = places.iter().map(|place| place.distance(middle)).collect();
     distances.sort_unstable_by(f64::total_cmp);
-    let mut last = ((distances.len() as f64 * MOST) as usize).min(distances.len().checked_sub(1)?);
+    let mut last = ((distances.len() as f64 * least) as usize).min(distances.len().checked_sub(1)?);
     while let (Some(here), Some(next)) = (distances.get(last), distances.get(last + 1))
         && *next <= GAP * here
     {
         last += 1;
     }
     let radius = *distances.get(last)?;
-    let is_far = radius > 0.0 && whole.radius > FAR * radius;
     let share = (last + 1) as f64 / distances.len() as f64;
-    is_far.then(|| Core { ball: Ball { center: middle, radius: RIM * radius }, share })
+    (radius > 0.0 && radius < within)
+        .then(|| Core { ball: Ball { center: middle, radius: RIM * radius }, share })
 }
 
 /// Room for the size of splats, and for places that are no samples.
@@ -87,7 +98,9 @@ mod tests {
         // All of the line, and nothing of what is far away.
         assert!(found.ball.center.x.abs() < 1.0 && (0.5..1.0).contains(&found.ball.radius), "{found:?}");
         assert_eq!(strays(100, 9.0), None, "near enough to be seen beside it");
-        assert_eq!(strays(400, 1000.0), None, "too many");
+        assert_eq!(strays(400, 900.0), None, "too many");
+        let first = strays(1000, 9000.0).unwrap();
+        assert!(first.share == 0.5 && first.ball.center == DVec3::ZERO, "{first:?}");
         assert_eq!(strays(0, 0.0), None);
         // What becomes ever more sparse has no gap.
         let sparse = (0..300).map(|i| DVec3::new(1.0_f64 * 1.05_f64.powi(i), 0.0, 0.0));

@@ -2,8 +2,9 @@
 //!
 //! **The rule.** The plane is that of least squares through the point and its nearest [`NEIGHBORS`], by their covariance about
 //! their mean. Where they are not flat the neighborhood grows to [`MOST_NEIGHBORS`], if it becomes flatter by that: noise has
-//! a thickness of its own, which matters less the wider the neighborhood, while an edge looks the same at any width. Where it
-//! does not, at edges and between the two sides of a thin plate, the [`sheets`] are looked for among them.
+//! a thickness of its own, which matters less the wider the neighborhood, while an edge looks the same at any width, and what turns fast is
+//! thicker, so that it keeps its few neighbors. Where it
+//! does neither, at edges and between the two sides of a thin plate, the [`sheets`] are looked for among them.
 //!
 //! Neighbors all on a line, as on scan lines that lie far apart, grow, too.
 
@@ -23,6 +24,12 @@ pub(super) const MOST_NEIGHBORS: usize = 48;
 /// Width over length below which they are a line.
 const LINE: f64 = 0.1;
 
+/// How much thicker a wider neighborhood is of a surface that turns fast: the side of a tube, or a ball of few points.
+const THICKER: f64 = 1.7;
+
+/// Thickness over width up to which this may be so; edges are thicker.
+const NEARLY_FLAT: f64 = 0.25;
+
 /// How much flatter a wider neighborhood must be. Four times the points of a noisy plane are twice as wide and as thick.
 const FLATTER: f64 = 0.7;
 
@@ -41,6 +48,9 @@ pub(super) fn plane<'a>(offsets: &[DVec3], more: impl FnOnce() -> &'a [DVec3]) -
     }
     if grown.thickness < FLATTER * first.thickness || grown.thickness <= FLAT {
         return grown;
+    }
+    if first.thickness <= NEARLY_FLAT && grown.thickness > THICKER * first.thickness {
+        return first;
     }
     let thinner = if grown.thickness < first.thickness { grown } else { first };
     sheets::wide(wider).or_else(|| sheets::near(offsets)).unwrap_or(thinner)

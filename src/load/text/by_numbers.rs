@@ -75,14 +75,15 @@ fn by_width(width: usize, rows: &[Vec<f64>]) -> Vec<Column> {
     }
 }
 
-/// Whether the last of 7 numbers is the same alpha in all rows, of colors that differ.
+/// Whether the last of 7 numbers is the same alpha in all rows, and the three before it are not white behind an intensity.
 fn is_opaque(rows: &[Vec<f64>]) -> bool {
     let column = |i: usize| rows.iter().filter_map(move |row| row.get(i).copied());
     let is_same = |i: usize| column(i).zip(column(i).skip(1)).all(|(a, b)| a == b);
     let is_color = || (3..6).all(|i| column(i).all(|value| (0.0..=255.0).contains(&value)));
     let is_alpha =
         rows.first().and_then(|row| row.get(6)).is_some_and(|alpha| *alpha == 255.0 || *alpha == 1.0);
-    rows.len() >= FEWEST && is_alpha && is_same(6) && is_color() && !(3..6).all(is_same)
+    let is_white = (4..7).all(|i| is_same(i) && column(i).next() == column(6).next());
+    rows.len() >= FEWEST && is_alpha && is_same(6) && is_color() && !is_white
 }
 
 /// Whether triples are normals: some are below zero, or all but those that are zero have length 1.
