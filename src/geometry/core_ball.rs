@@ -55,8 +55,8 @@ fn around(places: &[DVec3], middle: DVec3, least: f64, within: f64) -> Option<Co
     }
     let radius = *distances.get(last)?;
     let share = (last + 1) as f64 / distances.len() as f64;
-    (radius > 0.0 && radius < within)
-        .then(|| Core { ball: Ball { center: middle, radius: RIM * radius }, share })
+    let core = Core { ball: Ball { center: middle, radius: RIM * radius }, share };
+    (radius > 0.0 && radius < within).then_some(core)
 }
 
 /// Room for the size of splats, and for places that are no samples.
