@@ -4,7 +4,6 @@ mod bounded;
 mod cells;
 mod clip;
 mod cloud;
-mod core_ball;
 mod creases;
 mod eigen;
 mod facing;
@@ -12,6 +11,7 @@ mod fitness;
 mod flat_splats;
 pub mod hierarchy;
 mod hybrid;
+mod main_part;
 mod mesh_splats;
 mod neighbors;
 mod normals;
@@ -29,12 +29,12 @@ mod turns;
 mod up;
 
 pub use cloud::{CloudReport, Sides, splats_from_points};
-pub use core_ball::{Core, core};
 pub use facing::{is_flat_in_front, share_facing};
 pub use fitness::{Fitness, Suited};
 pub use hybrid::{
     EDGE_SPACING, Hybrid, HybridOptions, HybridReport, Multiresolution, hybrid, multiresolution,
 };
+pub use main_part::{MainPart, main_part};
 pub use mesh_splats::{DEFAULT_OVERLAP, fitting_splats, splats_from_mesh};
 pub use overlaps::Overlaps;
 pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, check_memory_for, resample};

@@ -61,7 +61,7 @@ fn inputs_that_are_far_apart_are_told() {
     folder.write("here.xyz", at(0.0));
     folder.write("there.xyz", at(4.6e6));
     folder.write("near.xyz", at(900.0));
-    let told = "the inputs are so far apart that none is seen";
+    let told = "the inputs are so far apart that not all are seen";
     let far = done(&folder, &["render", "here.xyz", "there.xyz", "--size", "64x64"]).stderr;
     assert!(far.contains(told) && far.contains("there.xyz is at 4600002,2,0"), "{far}");
     for words in [&["here.xyz", "near.xyz"][..], &["there.xyz"]] {

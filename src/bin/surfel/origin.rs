@@ -3,7 +3,7 @@
 use glam::DVec3;
 use surfel::{
     Progress as _,
-    geometry::{Core, core},
+    geometry::{MainPart, main_part},
     prepare::Rebase,
     scene::{Ball, Bounds, Scene},
 };
@@ -28,23 +28,24 @@ pub fn shift(scene: &Scene, radius: f64) -> Option<DVec3> {
 /// What is so many times as wide as the widest of its parts is mostly empty: each part is less than a pixel of most pictures.
 const APART: f64 = 1000.0;
 
-/// Tells of parts of which none can be seen with the others: their coordinates are of different systems, most likely.
-fn tell_apart(scene: &Scene, ball: &Ball) {
+/// Tells of parts that can't be seen with the others: their coordinates are of different systems, most likely.
+fn tell_apart(scene: &Scene) {
+    let Some(whole) = scene.bounds() else { return };
     let splats = scene.objects.iter().map(|object| (&object.name, object.splats.bounds()));
     let meshes = scene.meshes.iter().map(|object| (&object.name, object.mesh.bounds()));
     let parts = splats.chain(meshes).filter_map(|(name, bounds)| Some((name, bounds?)));
     let size = |(_, bounds): &(&String, Bounds)| bounds.radius();
     let farthest = parts.clone().max_by(|a, b| {
-        let away = |(_, bounds): &(&String, Bounds)| bounds.center().distance(ball.center);
+        let away = |(_, bounds): &(&String, Bounds)| bounds.center().distance(whole.center());
         away(a).total_cmp(&away(b))
     });
     let widest = parts.clone().map(|part| size(&part)).fold(0.0, f64::max);
-    if let Some((name, bounds)) = farthest.filter(|_| ball.radius > APART * widest && parts.count() > 1) {
+    if let Some((name, bounds)) = farthest.filter(|_| whole.radius() > APART * widest && parts.count() > 1) {
         let [x, y, z] = bounds.center().to_array().map(number);
         console::say(&format!(
-            "the inputs are so far apart that none is seen: all are within {} of each other, the widest is {} wide, and {name} is at \
+            "the inputs are so far apart that not all are seen: they are within {} of each other, the widest is {} wide, and {name} is at \
              {x},{y},{z}; expected coordinates of one system, so look at them one by one",
-            number(2.0 * ball.radius),
+            number(2.0 * whole.radius()),
             number(2.0 * widest)
         ));
     }
@@ -52,13 +53,17 @@ fn tell_apart(scene: &Scene, ball: &Ball) {
 
 /// The ball that a picture shows: of the whole scene, or of most of it where the rest is so far away that nothing else would be seen.
 pub fn seen(scene: &Scene, whole: &Ball, bars: &Bars) -> Ball {
-    let Some(Core { ball, share }) = core(scene, whole) else { return *whole };
+    let Some(MainPart { ball, share }) = main_part(scene, whole) else { return *whole };
     let zoom = ball.radius / whole.radius;
+    // Nothing is seen of what is much smaller.
+    let all = match zoom >= 0.01 {
+        true => format!("; --zoom {} shows all", number((zoom * 1000.0).floor() / 1000.0)),
+        false => String::new(),
+    };
     bars.note(&format!(
-        "the view is of {:.1}% of the scene: the rest is up to {} times as far away; --zoom {} shows all",
+        "the view is of {:.1}% of the scene: the rest is up to {} times as far away{all}",
         100.0 * share,
-        number((1.0 / zoom).round()),
-        number((zoom * 1e6).floor().max(1.0) / 1e6)
+        number((1.0 / zoom).round())
     ));
     ball
 }
@@ -82,7 +87,7 @@ fn tell_degrees(scene: &Scene) {
 
 /// Tells it, and of what is far apart.
 pub fn tell(scene: &Scene, ball: &Ball) {
-    tell_apart(scene, ball);
+    tell_apart(scene);
     tell_degrees(scene);
     if let Some(origin) = shift(scene, ball.radius) {
         let origin = origin.to_array().map(number).join(",");

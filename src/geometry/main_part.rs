@@ -7,7 +7,7 @@ use crate::scene::{Ball, Scene};
 
 /// Most of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Core {
+pub struct MainPart {
     /// A ball around it.
     pub ball: Ball,
     /// The share of splats and vertices that are in it.
@@ -31,7 +31,7 @@ const PART: f64 = 0.3;
 const APART: f64 = 1000.0;
 
 /// Most of a scene that has this ball, and is far larger than that; of parts that are very far apart the first.
-pub fn core(scene: &Scene, whole: &Ball) -> Option<Core> {
+pub fn main_part(scene: &Scene, whole: &Ball) -> Option<MainPart> {
     let places = samples(scene);
     let middle = DVec3::from_array([0, 1, 2].map(|axis: usize| {
         let mut along: Vec<f64> = places.iter().map(|place| place[axis]).collect();
@@ -44,7 +44,7 @@ pub fn core(scene: &Scene, whole: &Ball) -> Option<Core> {
 }
 
 /// This share of places or more, around a middle, if they are within a radius.
-fn around(places: &[DVec3], middle: DVec3, least: f64, within: f64) -> Option<Core> {
+fn around(places: &[DVec3], middle: DVec3, least: f64, within: f64) -> Option<MainPart> {
     let mut distances: Vec<f64> = places.iter().map(|place| place.distance(middle)).collect();
     distances.sort_unstable_by(f64::total_cmp);
     let mut last = ((distances.len() as f64 * least) as usize).min(distances.len().checked_sub(1)?);
@@ -55,8 +55,8 @@ fn around(places: &[DVec3], middle: DVec3, least: f64, within: f64) -> Option<Co
     }
     let radius = *distances.get(last)?;
     let share = (last + 1) as f64 / distances.len() as f64;
-    let core = Core { ball: Ball { center: middle, radius: RIM * radius }, share };
-    (radius > 0.0 && radius < within).then_some(core)
+    let part = MainPart { ball: Ball { center: middle, radius: RIM * radius }, share };
+    (radius > 0.0 && radius < within).then_some(part)
 }
 
 /// Room for the size of splats, and for places that are no samples.
@@ -77,13 +77,13 @@ mod tests {
     use super::*;
     use crate::scene::{Colors, Object, Shapes, Splats};
 
-    fn core_of(places: Vec<DVec3>) -> Option<Core> {
+    fn part_of(places: Vec<DVec3>) -> Option<MainPart> {
         let count = places.len();
         let shapes = Shapes::Disks { normals: vec![glam::Vec3::Z; count], radii: vec![0.1; count] };
         let splats = Splats::new(places, shapes, Colors::unknown());
         let object = Object { name: String::new(), splats, closed: false };
         let scene = Scene { objects: vec![object], ..Scene::default() };
-        core(&scene, &scene.ball().unwrap())
+        main_part(&scene, &scene.ball().unwrap())
     }
 
     fn line(count: u32, at: f64) -> impl Iterator<Item = DVec3> {
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn few_things_far_away_are_not_what_a_picture_shows() {
-        let strays = |count: u32, at: f64| core_of(line(1000, 0.0).chain(line(count, at)).collect());
+        let strays = |count: u32, at: f64| part_of(line(1000, 0.0).chain(line(count, at)).collect());
         let found = strays(100, 1000.0).unwrap();
         assert!((found.share - 1000.0 / 1100.0).abs() < 1e-3, "{found:?}");
         // All of the line, and nothing of what is far away.
@@ -104,7 +104,7 @@ mod tests {
         assert_eq!(strays(0, 0.0), None);
         // What becomes ever more sparse has no gap.
         let sparse = (0..300).map(|i| DVec3::new(1.0_f64 * 1.05_f64.powi(i), 0.0, 0.0));
-        assert_eq!(core_of(line(2000, 0.0).chain(sparse).collect()), None);
-        assert_eq!(core_of(vec![DVec3::ONE; 5]), None);
+        assert_eq!(part_of(line(2000, 0.0).chain(sparse).collect()), None);
+        assert_eq!(part_of(vec![DVec3::ONE; 5]), None);
     }
 }
