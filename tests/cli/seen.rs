@@ -107,6 +107,15 @@ fn what_nothing_would_be_seen_of_is_told_or_mended() {
         told.contains("400 alphas that are all 0, by 1, replaced") && !told.contains("nothing is seen"),
         "{told}"
     );
+    let small = |radius: &str| {
+        let rows: String = grid(20, 0.0).map(|[x, y, z]| format!("{x} {y} {z} {radius}\n")).collect();
+        let header = "ply\nformat ascii 1.0\nelement vertex 400\nproperty float x\nproperty float y\nproperty float z\nproperty float radius\nend_header\n";
+        folder.write("small.ply", format!("{header}{rows}"));
+        done(&folder, &[&["render", "small.ply"], &SIZE[..]].concat()).stderr
+    };
+    let [told, silent] = ["1e-5", "0.8"].map(small);
+    assert!(told.contains("splats are too small for a surface: their radii are 0.00001"), "{told}");
+    assert!(!silent.contains("too small"), "{silent}");
     folder.write("part.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid a\n");
     let told = done(&folder, &[&["render", "part.stl"], &SIZE[..]].concat()).stderr;
     assert!(told.contains("up is +z, because part.stl has it, as most STL files; --up y if not"), "{told}");

@@ -23,6 +23,7 @@ mod json;
 mod machine;
 mod measure;
 mod octrees;
+mod oddities;
 mod origin;
 mod outputs;
 mod parse;

@@ -20,7 +20,7 @@ use crate::{
     inputs::INPUTS,
     json::{to_json, write_json},
     measure::{self, View},
-    origin,
+    oddities, origin,
     outputs::{self, PictureFormat},
     parse,
     pick::{PickArguments, PickReport},
@@ -204,6 +204,7 @@ fn load(
 ) -> Result<(Loaded, Settings)> {
     let picture = &arguments.picture;
     let mut loaded = load_scene_by_view(&picture.input.inputs(), bars)?;
+    oddities::tell(&loaded.scene, &loaded.ball);
     origin::tell(&loaded.scene, &loaded.ball);
     picture.light(&mut loaded.scene);
     // What belongs to no scene was checked before it was loaded.

@@ -22,7 +22,7 @@ use crate::{
     console::{Bars, Repeated},
     inputs::Inputs,
     octrees::Octrees,
-    origin, up,
+    oddities, up,
 };
 
 /// A scene with its extent and where it came from.
@@ -90,7 +90,7 @@ fn load_all(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
         reports.iter().try_for_each(refuse_losses)?;
     }
     let whole = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
-    let ball = origin::seen(&scene, &whole, bars);
+    let ball = oddities::seen(&scene, &whole, bars);
     let is_of_files = objects.iter().any(|object| matches!(object.source, Source::File(_)));
     let up = up::of(ups, bars).or_else(|| is_of_files.then(|| up_of_shape(&scene)).flatten());
     let camera = camera.map(|camera| camera.of(&scene)).transpose()?;

@@ -7,7 +7,7 @@
 //! | 3 | x y z |
 //! | 4 | x y z, intensity |
 //! | 6 | x y z, and red green blue, or a normal if the numbers are of length 1 or below 0 |
-//! | 7 | x y z, intensity, red green blue |
+//! | 7 | x y z, intensity, red green blue; or a normal of length 1 and what is not read; or red green blue and an alpha that is 1 or 255 in all rows, which is not read |
 //! | 9 | x y z, red green blue and a normal, in either order |
 //! | 10 | x y z, intensity, red green blue and a normal, in either order |
 //! | others | x y z; the others are not read |
@@ -70,15 +70,15 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
         let first = writing.fields(line).nth(place).or(writing.fields(line).next()).unwrap_or_default();
         let rest = Lines { bytes: input.bytes, at, line_end, most };
         let is_row = writing.number(first).is_some() || header.is_none() && is_row_with_words(writing, rest)?;
-        match (is_row.then_some(()), is_alone) {
-            (Some(_), true) if count.is_none() => count = Some((at, line)),
-            (Some(_), true) => {
+        match (is_row, is_alone) {
+            (true, true) if count.is_none() => count = Some((at, line)),
+            (true, true) => {
                 return Err((
                     at,
                     "a second line of one number, as in PTX files; expected rows of x y z".to_owned(),
                 ));
             }
-            (Some(_), false) => {
+            (true, false) => {
                 let start = count.map_or(at, |(at, _)| at);
                 let Found { columns, ignored, geographic } =
                     match of_colmap && input.options.columns.is_none() {
@@ -88,8 +88,8 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
                 let counted = count.is_some();
                 return Ok(Layout { writing, columns, geographic, ignored, start, counted, line_end });
             }
-            (None, _) if header.is_none() && count.is_none() => header = Some((at, line)),
-            (None, _) => return Err((at, format!("'{}'; expected a number", shown(first)))),
+            (false, _) if header.is_none() && count.is_none() => header = Some((at, line)),
+            (false, _) => return Err((at, format!("'{}'; expected a number", shown(first)))),
         }
     }
     match (header, count) {
