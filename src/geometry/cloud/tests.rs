@@ -1,3 +1,4 @@
+mod few;
 mod given;
 mod rims;
 mod surfaces;

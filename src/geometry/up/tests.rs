@@ -97,3 +97,12 @@ fn a_ball_has_no_up() {
         assert_eq!(because(&Scene { meshes: vec![mesh], ..Scene::default() }), None);
     }
 }
+
+#[test]
+fn a_few_triangles_on_a_map_are_enough() {
+    let mut mesh = sphere(3);
+    mesh.positions.iter_mut().for_each(|place| *place += DVec3::new(500_000.0, 4_600_000.0, 300.0));
+    let on_map = MeshObject { name: String::new(), mesh, closed: true };
+    let up = because(&Scene { meshes: vec![on_map], ..Scene::default() });
+    assert_eq!(up.unwrap(), "its x and y are those of a map");
+}
