@@ -43,7 +43,7 @@ struct Piece {
 
 impl Piece {
     /// Turned about x, so that what was along y is along z.
-    fn with_y_as_z(&self) -> Self {
+    fn with_y_as_z(self) -> Self {
         let DVec3 { x, y, z } = self.place;
         let place = DVec3::new(x, -z, y);
         Self { place, upright: self.upright_in_y, upright_in_y: self.upright, area: self.area }
@@ -57,7 +57,7 @@ pub fn up_of_shape(scene: &Scene) -> Option<FoundUp> {
     }
     let pieces = open_pieces(scene)?;
     let along_z = shape_of(&pieces);
-    let turned: Vec<Piece> = pieces.iter().map(Piece::with_y_as_z).collect();
+    let turned: Vec<Piece> = pieces.into_iter().map(Piece::with_y_as_z).collect();
     let (direction, because) = match (along_z, shape_of(&turned)) {
         (Some(because), None) => (DVec3::Z, because),
         (None, Some(because)) => (DVec3::Y, because),

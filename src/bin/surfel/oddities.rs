@@ -30,8 +30,14 @@ pub fn seen(scene: &Scene, whole: &Ball, bars: &Bars) -> Ball {
 
 /// Tells what is odd of a scene that is seen within a ball.
 pub fn tell(scene: &Scene, ball: &Ball) {
-    tell_apart(scene);
-    tell_degrees(scene);
+    let splats = scene.objects.iter().map(|object| (object.name.as_str(), object.splats.bounds()));
+    let meshes = scene.meshes.iter().map(|object| (object.name.as_str(), object.mesh.bounds()));
+    let parts: Vec<(&str, Bounds)> =
+        splats.chain(meshes).filter_map(|(name, bounds)| Some((name, bounds?))).collect();
+    if let Some(whole) = parts.iter().map(|(_, bounds)| *bounds).reduce(Bounds::union) {
+        tell_apart(&parts, &whole);
+        tell_degrees(&whole);
+    }
     tell_small(scene, ball);
 }
 
@@ -39,18 +45,11 @@ pub fn tell(scene: &Scene, ball: &Ball) {
 const APART: f64 = 1000.0;
 
 /// Tells of parts that can't be seen with the others: their coordinates are of different systems, most likely.
-fn tell_apart(scene: &Scene) {
-    let Some(whole) = scene.bounds() else { return };
-    let splats = scene.objects.iter().map(|object| (&object.name, object.splats.bounds()));
-    let meshes = scene.meshes.iter().map(|object| (&object.name, object.mesh.bounds()));
-    let parts = splats.chain(meshes).filter_map(|(name, bounds)| Some((name, bounds?)));
-    let size = |(_, bounds): &(&String, Bounds)| bounds.radius();
-    let farthest = parts.clone().max_by(|a, b| {
-        let away = |(_, bounds): &(&String, Bounds)| bounds.center().distance(whole.center());
-        away(a).total_cmp(&away(b))
-    });
-    let widest = parts.clone().map(|part| size(&part)).fold(0.0, f64::max);
-    if let Some((name, bounds)) = farthest.filter(|_| whole.radius() > APART * widest && parts.count() > 1) {
+fn tell_apart(parts: &[(&str, Bounds)], whole: &Bounds) {
+    let away = |(_, bounds): &(&str, Bounds)| bounds.center().distance(whole.center());
+    let farthest = parts.iter().max_by(|a, b| away(a).total_cmp(&away(b)));
+    let widest = parts.iter().map(|(_, bounds)| bounds.radius()).fold(0.0, f64::max);
+    if let Some((name, bounds)) = farthest.filter(|_| whole.radius() > APART * widest && parts.len() > 1) {
         let [x, y, z] = bounds.center().to_array().map(number);
         console::say(&format!(
             "the inputs are so far apart that not all are seen: they are within {} of each other, the widest is {} wide, and {name} is at \
@@ -65,11 +64,10 @@ fn tell_apart(scene: &Scene) {
 const HIGH: f64 = 300.0;
 
 /// Tells of places that may be longitudes and latitudes in degrees, beside heights.
-fn tell_degrees(scene: &Scene) {
-    let Some(Bounds { min, max }) = scene.bounds() else { return };
+fn tell_degrees(Bounds { min, max }: &Bounds) {
     let is_place = min.x >= -180.0 && max.x <= 180.0 && min.y >= -90.0 && max.y <= 90.0;
     let is_away = min.x * max.x > 1.0 && min.y * max.y > 1.0;
-    let extent = max - min;
+    let extent = *max - *min;
     if is_place && is_away && extent.z > HIGH * extent.x.max(extent.y) {
         console::say(
             "x and y may be longitude and latitude in degrees, beside heights: expected lengths, so project them first, or call the columns lon \

@@ -104,7 +104,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// The reach of a point's cell in its tangent plane, from its neighbors' offsets, nearest first, 56 at most. Zero without any.
+    /// The reach of a point's cell in its tangent plane, from its neighbors' offsets, nearest first, 48 at most. Zero without any.
     pub(super) fn reach(&mut self, normal: DVec3, offsets: &[DVec3]) -> Reach {
         let radius = widest_gap(offsets);
         if radius == 0.0 {
@@ -137,7 +137,7 @@ impl Cells {
         let (mut corner, first) = self.next(Vec2::ZERO, Vec2::X);
         let mut line = first;
         // Of lines that are equal but for rounding the first may not be met again.
-        for _ in 0..SIDES + offsets.len() {
+        for _ in 0..SIDES + MOST_CUTS + offsets.len() {
             let (next, met) = self.next(corner, self.along(line).perp());
             let squared = next.length_squared();
             farthest = farthest.max(squared);
@@ -184,7 +184,7 @@ impl Cells {
     }
 
     /// Whether a corner between two neighbors is outside of the surface: far away, not within the triangle with them, and no other neighbor is
-    /// beyond it, within 60° of its direction.
+    /// beyond it, within 45° of its direction.
     fn is_outside(&self, corner: Vec2, between: [usize; 2]) -> bool {
         let squared = corner.length_squared();
         if squared < FAR * FAR {
