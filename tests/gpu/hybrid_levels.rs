@@ -1,8 +1,8 @@
 //! A mesh in levels of detail: cells that are polygons near the eye and splats far from it, as the device chooses them.
 
 use crate::{
-    common::{PICTURE, builder, passes, render_as, scenes::Hard, shared, with},
-    levels::{ball, rms},
+    common::{PICTURE, builder, moves_corners, passes, render_as, scenes::Hard, shared, with},
+    levels::{ball, pixels_apart, rms},
 };
 use glam::DVec3;
 use surfel::{
@@ -146,9 +146,8 @@ fn what_is_drawn_is_what_the_oracle_chooses() {
         );
         assert!(passes(&found).contains(&"choose polygons") || choice.cells.is_empty());
         // Sums in another order, of chunks with other origins: in single pixels that turns what is within ε.
-        let is_apart = |(a, b): &(&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > 1e-4);
-        let apart = truth.linear.iter().zip(&found.linear).filter(is_apart).count();
-        assert!(apart <= 4 && error < 1e-3, "round {round}: {apart} pixels, {error}");
+        let apart = pixels_apart(&truth, &found);
+        assert!(apart <= 16 && error < 1e-3, "round {round}: {apart} pixels, {error}");
         exact += usize::from(error < 2e-6);
         let cells = made.levels.cells.len();
         both += usize::from(of_splats > 500 && (cells / 10..cells * 9 / 10).contains(&choice.cells.len()));
@@ -187,8 +186,9 @@ fn the_picture_is_the_oracles() {
         let oracle = render(&chosen, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
         let errors = compare_light(&render_as(&mut headless, &hard, PICTURE), &oracle);
         println!("round {round}: {} cells, {} splats: {errors:?}", choice.cells.len(), choice.leaves.len());
-        // Corners are snapped to 1/256 pixel, between which colors are found.
-        let allowed = LightErrors { worst: 2.0 * tolerance::LIGHT, ..tolerance::of_light(&hard) };
+        // Corners are snapped to 1/256 pixel, between which colors are found; some devices cut what others round.
+        let steps = if moves_corners(headless.device()) { 4.0 } else { 2.0 };
+        let allowed = LightErrors { worst: steps * tolerance::LIGHT, ..tolerance::of_light(&hard) };
         let beyond = errors.beyond(&allowed);
         assert!(beyond.is_empty(), "round {round}: {beyond:?}");
         both += usize::from(!choice.cells.is_empty() && !choice.leaves.is_empty());

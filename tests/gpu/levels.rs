@@ -143,6 +143,12 @@ pub fn rms(a: &Frame, b: &Frame) -> f64 {
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
+/// Pixels that differ by more than sums in another order do.
+pub fn pixels_apart(a: &Frame, b: &Frame) -> usize {
+    let is_apart = |(a, b): &(&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > 1e-4);
+    a.linear.iter().zip(&b.linear).filter(is_apart).count()
+}
+
 #[test]
 fn the_picture_is_that_of_the_scene_the_nearer_the_smaller_the_sizes_are() {
     let mut headless = shared();

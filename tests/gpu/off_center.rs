@@ -1,7 +1,9 @@
 //! Cameras that are off-center: parts of a picture, and pixels that are sampled beside their centers.
 
 use crate::{
-    common::{ALL, PICTURE, assert_same_bits, compare, oracle_of, render_as, scenes, shared, with},
+    common::{
+        ALL, PICTURE, assert_same_bits, compare, moves_corners, oracle_of, render_as, scenes, shared, with,
+    },
     samples::errors,
 };
 use surfel::{
@@ -46,7 +48,9 @@ fn every_rasterizer_agrees_with_the_oracle_off_the_center() {
             let [mean, beyond] = errors(&frame.linear, oracle.pixels.iter().map(|pixel| pixel.color));
             println!("{}, {name}: mean {mean:.1e}, {:.2}% of pixels beyond 1/255", hard.name, 100.0 * beyond);
             assert!(mean < 1e-4 && beyond < 5e-3, "{}, {name}: {mean:e}, {beyond}", hard.name);
-            if hard.name == opaque {
+            if hard.name == opaque
+                && !(*rasterizer == Rasterizer::Triangle && moves_corners(headless.device()))
+            {
                 let errors = compare::compare(&frame, &oracle);
                 println!("{}", errors.row(&format!("{}, {name}", hard.name)));
                 let beyond = errors.beyond(&tolerance::of(&hard));

@@ -95,7 +95,8 @@ fn the_published_programs_draw_and_ours_are_nearer_to_the_oracle() {
         let [a, b, c] = [published, filtered, ours].map(columns);
         println!("| {} | {} | {a} | {b} | {c} |", hard.name, published.covered_px);
         // Not a number where no pixel has color in both.
-        let is_nearer = (ours.rms <= published.rms || published.rms.is_nan())
+        // Beyond a fortieth of a step of 8 bits: of 3000 disks sums of f32 are as far off by their order.
+        let is_nearer = (ours.rms <= published.rms.max(1e-4) || published.rms.is_nan())
             && ours.coverage_px <= published.coverage_px;
         assert!(is_nearer, "{}: {ours:?}, published {published:?}", hard.name);
         if hard.name == "sphere of disks" {

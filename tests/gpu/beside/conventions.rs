@@ -51,7 +51,7 @@ const BLUE: f32 = 0.8;
 const EPSILON_TIE: f64 = 1e-5;
 
 /// What a step of the format is at a depth.
-fn step_of(format: vk::Format, depth: f64) -> f64 {
+pub(super) fn step_of(format: vk::Format, depth: f64) -> f64 {
     match format {
         vk::Format::D16_UNORM => 1.0 / 65_535.0,
         vk::Format::X8_D24_UNORM_PACK32 => 1.0 / 16_777_215.0,
@@ -139,6 +139,13 @@ fn balls_and_triangles_cut_each_other_where_the_oracle_says() {
                     continue;
                 }
                 let depth = if shows_ball { ball } else { of_plane };
+                // The engine's own triangle lies between corners that a device moves by up to half of 1/256 pixel.
+                let moved = || -> f64 {
+                    let width = SIZE_PX[0] as usize;
+                    let beside = [i + 1 - 2 * (i % 2), if i < width { i + width } else { i - width }];
+                    beside.iter().map(|at| (depths(&expected, *at)[0] - of_plane).abs() / 512.0).sum()
+                };
+                let tolerance = if shows_ball { tolerance } else { tolerance + moved() };
                 worst = worst.max((written - depth).abs() / tolerance);
                 assert!((written - depth).abs() <= tolerance, "{name}, pixel {i}: {written} for {depth}");
                 if shows_ball {

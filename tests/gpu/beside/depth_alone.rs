@@ -11,7 +11,7 @@ use surfel::{
     scene::{Colors, Edges, Rasterizer, Scene},
 };
 
-use super::{Beside, RED, REVERSED, SIZE_PX};
+use super::{Beside, RED, REVERSED, SIZE_PX, conventions::step_of};
 use crate::common::scenes;
 
 /// Cuts the ball.
@@ -45,7 +45,8 @@ fn begin(beside: &Beside) {
     }
 }
 
-/// To the bit, whatever draws it, and beside what is transparent, which leaves no depth.
+/// But for two steps of 32 bits, for pipelines may divide in their own ways; whatever draws it, and beside what is transparent, which leaves
+/// no depth.
 #[test]
 fn depth_without_a_picture_is_that_of_the_picture() {
     let camera = HostCamera {
@@ -82,8 +83,13 @@ fn depth_without_a_picture_is_that_of_the_picture() {
             unsafe { alone.draw(&beside.renderer, beside.engine.commands) }.unwrap();
             beside.engine.end_rendering();
             beside.submit();
-            let apart: Vec<_> =
-                beside.engine.depths().into_iter().zip(depths.clone()).filter(|(a, b)| a != b).collect();
+            let apart: Vec<_> = beside
+                .engine
+                .depths()
+                .into_iter()
+                .zip(depths.clone())
+                .filter(|(a, b)| (a - b).abs() > 2.0 * step_of(vk::Format::D32_SFLOAT, *b))
+                .collect();
             let some = &apart[..apart.len().min(3)];
             assert!(apart.is_empty(), "{rasterizer:?}, {edges:?}: {} differ, such as {some:?}", apart.len());
             let reds = beside.engine.pixels().iter().filter(|color| **color == RED).count();
