@@ -97,6 +97,9 @@ pub(super) struct Cells {
     lines: Vec<Four>,
     /// Directions of unit length, and how far away the edges are.
     cuts: Vec<(DVec3, f64)>,
+    /// Where neighbors of other faces are, and where in the plane, in radii of the circle.
+    across: Vec<DVec3>,
+    across_in_plane: Vec<Vec2>,
     /// How many of the lines are no neighbors'.
     others: usize,
     /// How long the way is up to each.
@@ -123,6 +126,9 @@ impl Cells {
         }
         self.others = 4 * self.lines.len();
         let (u, v) = (u / radius, v / radius);
+        let in_plane = |offset: &DVec3| Vec2::new(offset.dot(u) as f32, offset.dot(v) as f32);
+        self.across_in_plane.clear();
+        self.across_in_plane.extend(self.across.iter().map(in_plane));
         for offsets in offsets.chunks(4) {
             let [mut x, mut y, mut limits] = [Vec4::ZERO, Vec4::ZERO, Vec4::MAX];
             for (i, offset) in offsets.iter().enumerate() {
@@ -164,6 +170,7 @@ impl Cells {
 
     /// Adds the edge to the face of a neighbor at an offset, of which there are [`MOST_CUTS`]; to faces in one direction the farther.
     pub(super) fn cut(&mut self, normal: DVec3, other: DVec3, offset: DVec3) {
+        self.across.push(offset);
         let along = other - normal * normal.dot(other);
         let sine = along.length();
         if sine < LEAST_SINE {
@@ -181,10 +188,11 @@ impl Cells {
     /// Forgets the edges of the point before.
     pub(super) fn uncut(&mut self) {
         self.cuts.clear();
+        self.across.clear();
     }
 
-    /// Whether a corner between two neighbors is outside of the surface: far away, not within the triangle with them, and no other neighbor is
-    /// beyond it, within 45° of its direction.
+    /// Whether a corner between two neighbors is outside of the surface: far away, not within the triangle with them, and no other neighbor, of
+    /// whatever face, is beyond it, within 45° of its direction.
     fn is_outside(&self, corner: Vec2, between: [usize; 2]) -> bool {
         let squared = corner.length_squared();
         if squared < FAR * FAR {
@@ -203,10 +211,14 @@ impl Cells {
                 & toward.cmplt(Vec4::splat(FARTHEST * squared));
             u64::from(is_beyond.bitmask()) << (4 * i)
         };
+        let is_beyond = |at: &Vec2| {
+            let (toward, aside) = (corner.dot(*at), corner.perp_dot(*at));
+            toward > squared && aside.abs() < toward && toward < FARTHEST * squared
+        };
         let all =
             self.lines[self.others / 4..].iter().enumerate().map(beyond).fold(0, |all, four| all | four);
         let of_both = between.iter().fold(0, |both, line| both | 1 << (line - self.others));
-        all & !of_both == 0
+        all & !of_both == 0 && !self.across_in_plane.iter().any(is_beyond)
     }
 
     fn along(&self, number: usize) -> Vec2 {

@@ -42,7 +42,12 @@ fn a_far_corner_with_nothing_behind_it_is_outside() {
     ragged.sort_by(|a, b| a.length().total_cmp(&b.length()));
     let found = reach(DVec3::Z, &ragged);
     assert!(!found.open && found.outside && found.distance <= 1.1, "{found:?}");
-    // With points on the other side it is a gap, which closes.
+    // With points on the other side it is a gap, which closes, whatever their face.
+    let mut cells = Cells::default();
+    cells.cut(DVec3::Z, -DVec3::Z, DVec3::new(0.3, 6.0, -1.0));
+    assert!(!cells.reach(DVec3::Z, &ragged).outside);
+    cells.uncut();
+    assert!(cells.reach(DVec3::Z, &ragged).outside);
     ragged.extend((-3..4).map(|x| DVec3::new(f64::from(x), 6.0, 0.0)));
     let found = reach(DVec3::Z, &ragged);
     assert!(!found.open && !found.outside && found.distance > 2.5, "{found:?}");
