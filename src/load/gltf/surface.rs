@@ -30,6 +30,7 @@ pub(super) struct Surface<'a> {
     points: Vec<u32>,
     /// Whether a primitive has a color of its own.
     has_colors: bool,
+    with_normals: u64,
     without_normals: u64,
     without_positions: u64,
     lines: u64,
@@ -49,6 +50,7 @@ impl<'a> Surface<'a> {
             triangles: Vec::new(),
             points: Vec::new(),
             has_colors: false,
+            with_normals: 0,
             without_normals: 0,
             without_positions: 0,
             lines: 0,
@@ -126,6 +128,7 @@ impl<'a> Surface<'a> {
             }
             self.colors.push(color);
         }
+        self.with_normals += u64::from(normals.is_some());
         self.without_normals += u64::from(normals.is_none());
         Ok(Some((first, count)))
     }
@@ -140,7 +143,7 @@ impl<'a> Surface<'a> {
         };
         let has_all_normals = self.without_normals == 0 && !self.positions.is_empty();
         let normals = has_all_normals.then_some(self.normals);
-        let lost = if has_all_normals || self.positions.is_empty() { 0 } else { self.without_normals };
+        let lost = if self.with_normals > 0 { self.without_normals } else { 0 };
         let stray = if self.triangles.is_empty() { 0 } else { self.points.len() as u64 };
         let model = match self.triangles.is_empty() && !self.points.is_empty() {
             true => {

@@ -14,8 +14,12 @@ pub(in crate::load) enum Palette {
     Grays(f32),
     /// The format wants 16 bits; many writers copy 8 into them.
     Bytes,
-    Words,
+    /// Up to this white: some scanners' 12 bits are copied, too.
+    Words(u16),
 }
+
+/// The largest number of 12 bits. Where it is white in all of 16 bits, the picture is nearly black.
+pub(in crate::load) const MOST_OF_12_BITS: u16 = 4095;
 
 impl Palette {
     /// That of some points.
@@ -27,7 +31,8 @@ impl Palette {
                 [_, white] => Self::Grays(white),
             },
             1..=255 => Self::Bytes,
-            _ => Self::Words,
+            ..=MOST_OF_12_BITS => Self::Words(MOST_OF_12_BITS),
+            _ => Self::Words(u16::MAX),
         }
     }
 
@@ -44,11 +49,12 @@ impl Palette {
                 let linear = |value: u16| table.of(value.min(255) as u8);
                 (each(&columns.colors, linear), ", 8-bit colors")
             }
-            Self::Words => {
+            Self::Words(white) => {
                 let table: Vec<f32> =
-                    (0..=u16::MAX).map(|v| linear_from_srgb(f32::from(v) / 65535.0)).collect();
+                    (0..=white).map(|v| linear_from_srgb(f32::from(v) / f32::from(white))).collect();
                 let linear = |value: u16| table.get(usize::from(value)).copied().unwrap_or(1.0);
-                (each(&columns.colors, linear), ", 16-bit colors")
+                let words = if white == u16::MAX { ", 16-bit colors" } else { ", 12-bit colors" };
+                (each(&columns.colors, linear), words)
             }
         };
         (colors, words, 0)
@@ -57,4 +63,20 @@ impl Palette {
 
 fn each(colors: &[[u16; 3]], linear: impl Fn(u16) -> f32 + Sync) -> Colors {
     Colors::Each(colors.par_iter().map(|&[r, g, b]| [linear(r), linear(g), linear(b), 1.0]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colors_of_8_12_and_16_bits_have_their_white() {
+        for (white, words) in [(255, ", 8-bit colors"), (4095, ", 12-bit colors"), (4096, ", 16-bit colors")]
+        {
+            let columns = Columns { colors: vec![[white, 0, 7]], ..Columns::default() };
+            let (colors, told, beyond) = Palette::of(&columns).colors(&columns);
+            assert_eq!((told, beyond), (words, 0));
+            assert_eq!(colors.get(0).map(|color| color[0] > 0.99), Some(white < 4096), "{white}");
+        }
+    }
 }

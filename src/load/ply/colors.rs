@@ -59,6 +59,8 @@ impl White {
             (Meaning::Intensity, _) if is_float && self.largest <= 1.0 => 1.0,
             _ if self.largest <= 255.0 => 255.0,
             (Meaning::Intensity, _) => self.largest,
+            // Of 12 bits, as some scanners have them: white of 16 bits would leave a picture nearly black.
+            (Meaning::Color, _) if self.largest <= 4095.0 => 4095.0,
             (_, Scalar::Short) => f32::from(i16::MAX),
             _ if self.largest <= 65_535.0 => 65_535.0,
             (_, Scalar::Int) => i32::MAX as f32,
@@ -105,6 +107,9 @@ impl FileColors {
             return;
         }
         let (mut largest, mut largest_alpha) = (DVec3::ZERO, 0.0_f64);
+        // A point whose intensity is no number is there all the same.
+        let is_intensity = self.white[0].meaning == Meaning::Intensity;
+        let rgb = rgb.map(|rgb| if is_intensity && rgb.is_nan() { DVec3::ZERO } else { rgb });
         self.values.extend(rgb.zip(alpha).map(|(rgb, alpha)| {
             if rgb.is_finite() {
                 largest = largest.max(rgb);

@@ -13,6 +13,7 @@ use glam::DVec3;
 use super::{Input, Loaded, Model};
 use crate::{
     error::Result,
+    math::srgb::linear_from_srgb,
     notes::Deed,
     scene::{Colors, Mesh},
 };
@@ -88,10 +89,26 @@ fn binary(input: &Input<'_>, records: &Records<'_>) -> Result<Loaded> {
     }
     input.step(input.bytes.len());
     let mut loaded = loaded(corners, "STL, binary");
+    if let (Some(color), Model::Mesh(mesh)) = (color_of_all(input.bytes), &mut loaded.model) {
+        mesh.colors = Colors::Uniform(color);
+        loaded.format += ", its header's color";
+    }
     loaded.note(Deed::Ignored, attributes, "attributes of triangles, which may be colors,");
     loaded.note(Deed::Ignored, records.behind as u64, "bytes behind the last triangle");
     Ok(loaded)
 }
+
+/// The linear color that some programs (Materialise Magics) write for all triangles: red, green, blue and alpha behind a word of the header. An alpha of 0
+/// is that of those that write none.
+fn color_of_all(bytes: &[u8]) -> Option<[f32; 4]> {
+    let header = bytes.get(..HEADER_BYTES)?;
+    let at = header.windows(COLOR_WORD.len()).position(|word| word == COLOR_WORD)?;
+    let [rgb @ .., alpha] = header.get(at + COLOR_WORD.len()..)?.first_chunk::<4>()?;
+    let [r, g, b] = rgb.map(|byte| linear_from_srgb(f32::from(byte) / 255.0));
+    Some([r, g, b, if *alpha == 0 { 1.0 } else { f32::from(*alpha) / 255.0 }])
+}
+
+const COLOR_WORD: &[u8] = b"COLOR=";
 
 fn loaded(corners: Vec<[f32; 3]>, format: &str) -> Loaded {
     let welded = weld::weld(&corners);

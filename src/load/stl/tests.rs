@@ -46,7 +46,7 @@ fn binary_and_text_are_the_same_mesh_with_shared_vertices() {
     check(&binary_bytes(b"made by hand"), "STL, binary", &[DEGENERATE]);
     check(&binary_bytes(b"solid but binary"), "STL, binary", &[DEGENERATE]);
     check(text().as_bytes(), "STL, text", &[DEGENERATE]);
-    let mut colored = binary_bytes(b"COLOR=");
+    let mut colored = binary_bytes(b"COLOR=\xff\x33\x00\xff");
     colored[84 + 48] = 1;
     colored.extend([7; 3]);
     let notes = [
@@ -54,7 +54,10 @@ fn binary_and_text_are_the_same_mesh_with_shared_vertices() {
         "1 attribute of triangles, which may be colors, ignored",
         "3 bytes behind the last triangle ignored",
     ];
-    check(&colored, "STL, binary", &notes);
+    check(&colored, "STL, binary, its header's color", &notes);
+    let Model::Mesh(mesh) = of_bytes("a.stl", &colored, parse).unwrap().model else { panic!("no mesh") };
+    let Colors::Uniform([red, green, blue, alpha]) = mesh.colors else { panic!("no color") };
+    assert!((red, blue, alpha) == (1.0, 0.0, 1.0) && (0.03..0.04).contains(&green));
 }
 
 #[test]

@@ -67,7 +67,8 @@ fn by_width(width: usize, rows: &[Vec<f64>]) -> Vec<Column> {
         6 if is_normal(3) => [position, normal].concat(),
         6 => [position, color].concat(),
         7 if is_unit(3) => [&position[..], &normal, &[Other]].concat(),
-        7 if is_opaque(rows) => [&position[..], &color, &[Other]].concat(),
+        7 if is_opaque(rows) || has_label(rows) => [&position[..], &color, &[Other]].concat(),
+        8 if has_label(rows) => [&position[..], &color, &[Other; 2]].concat(),
         7 => [&position[..], &[Intensity], &color].concat(),
         9 => [&position[..], &pair(3)].concat(),
         10 => [&position[..], &[Intensity], &pair(4)].concat(),
@@ -84,6 +85,22 @@ fn is_opaque(rows: &[Vec<f64>]) -> bool {
         rows.first().and_then(|row| row.get(6)).is_some_and(|alpha| *alpha == 255.0 || *alpha == 1.0);
     let is_white = (4..7).all(|i| is_same(i) && column(i).next() == column(6).next());
     rows.len() >= FEWEST && is_alpha && is_same(6) && is_color() && !is_white
+}
+
+/// Whether the three numbers behind the position are bytes of color, and the next one of few values, as the label of a class; of an intensity and a
+/// color the last is of about as many values as those before it.
+fn has_label(rows: &[Vec<f64>]) -> bool {
+    let column = |i: usize| rows.iter().filter_map(move |row| row.get(i).copied());
+    let values = |i: usize| {
+        let mut values: Vec<i64> = column(i).map(|value| value as i64).collect();
+        values.sort_unstable();
+        values.dedup();
+        values.len()
+    };
+    let are_whole =
+        |mut range: std::ops::Range<usize>| range.all(|i| column(i).all(|value| value.fract() == 0.0));
+    let are_bytes = || (3..6).all(|i| column(i).all(|value| (0.0..=255.0).contains(&value)));
+    rows.len() >= FEWEST && are_whole(3..7) && are_bytes() && (3..6).all(|i| values(i) >= 4 * values(6))
 }
 
 /// Whether triples are normals: some are below zero, or all but those that are zero have length 1.

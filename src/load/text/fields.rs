@@ -26,6 +26,15 @@ impl Writing {
         if has(b';') {
             return Self { between: Between::Semicolon, decimal_comma: has(b',') };
         }
+        // Of a table whose words are in quotation marks: a comma within is none between, and no mark of thousands where other than three digits follow.
+        let quoted = Self { between: Between::Comma, decimal_comma: true };
+        let is_decimal = |word: &[u8]| {
+            let within = word.strip_prefix(b"\"").and_then(|word| word.split(|b| *b == b',').nth(1));
+            within.is_some_and(|digits| digits.strip_suffix(b"\"").is_some_and(|digits| digits.len() != 3))
+        };
+        if has(b'"') && quoted.fields(row).any(is_decimal) {
+            return quoted;
+        }
         let blanks = Self { between: Between::Blanks, decimal_comma: has(b',') };
         // Commas that stand within three or more words stand for points; in `1, 2, 3` they end words.
         let mut words = 0;
@@ -81,7 +90,14 @@ impl<'a> Iterator for Fields<'a> {
             Between::Comma => *byte == b',',
             Between::Semicolon => *byte == b';',
         };
-        match rest.iter().position(ends) {
+        // What is in quotation marks is one word, but for theirs.
+        let quoted = match (self.between, rest.first()) {
+            (Between::Comma, Some(b'"')) => {
+                rest.iter().skip(1).position(|b| *b == b'"').map_or(0, |end| end + 1)
+            }
+            _ => 0,
+        };
+        match rest.iter().skip(quoted).position(ends).map(|end| quoted + end) {
             Some(end) => {
                 let (word, behind) = rest.split_at(end);
                 self.rest = behind.get(1..);
@@ -116,7 +132,7 @@ mod tests {
 
     #[test]
     fn every_way_to_write_a_row_is_told() {
-        let cases: [(&str, Between, bool, &[f64]); 9] = [
+        let cases: [(&str, Between, bool, &[f64]); 11] = [
             ("1 2\t 3", Between::Blanks, false, &[1.0, 2.0, 3.0]),
             ("1,2,3", Between::Comma, false, &[1.0, 2.0, 3.0]),
             ("1, 2, 3,", Between::Comma, false, &[1.0, 2.0, 3.0]),
@@ -124,6 +140,8 @@ mod tests {
             ("1,5;2,25;-3", Between::Semicolon, true, &[1.5, 2.25, -3.0]),
             ("1,5 2,5\t3,5", Between::Blanks, true, &[1.5, 2.5, 3.5]),
             ("\"1.5\",\"2\",\"3\"", Between::Comma, false, &[1.5, 2.0, 3.0]),
+            ("\"0,85\",\"2\",\"-3,125\"", Between::Comma, true, &[0.85, 2.0, -3.125]),
+            ("\"1,234\",\"2\",\"3\"", Between::Comma, false, &[]),
             ("1e3 +2. .5", Between::Blanks, false, &[1000.0, 2.0, 0.5]),
             ("1,2,3 4,5,6", Between::Comma, false, &[1.0, 2.0]),
         ];

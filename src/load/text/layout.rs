@@ -7,7 +7,8 @@
 //! | 3 | x y z |
 //! | 4 | x y z, intensity |
 //! | 6 | x y z, and red green blue, or a normal if the numbers are of length 1 or below 0 |
-//! | 7 | x y z, intensity, red green blue; or a normal of length 1 and what is not read; or red green blue and an alpha that is 1 or 255 in all rows, which is not read |
+//! | 7 | x y z, intensity, red green blue; or a normal of length 1 and what is not read; or red green blue and an alpha that is 1 or 255 in all rows or a label of few values, which is not read |
+//! | 8 | x y z, red green blue and two labels, which are not read |
 //! | 9 | x y z, red green blue and a normal, in either order |
 //! | 10 | x y z, intensity, red green blue and a normal, in either order |
 //! | others | x y z; the others are not read |
@@ -18,6 +19,7 @@ use super::{
     by_numbers,
     columns::{Column, Columns},
     fields::Writing,
+    header::{Found, MOST_TITLES, are_units, header_of, named, names_columns, of_header},
 };
 use crate::load::{Input, lines::shown, sniff::without_mark};
 
@@ -29,6 +31,8 @@ pub(super) struct Layout {
     pub geographic: bool,
     /// What the columns that are not read are called, or how many there are.
     pub ignored: Vec<String>,
+    /// How many lines of words stand above the rows, a header that names columns aside.
+    pub titles: u64,
     /// The byte at which the first line of data starts: a row, or a number of rows.
     pub start: usize,
     /// The first line of data is a number of rows.
@@ -46,7 +50,8 @@ pub(super) type Fault = (usize, String);
 /// The file's layout.
 pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
     let line_end = if input.bytes.contains(&b'\n') { b'\n' } else { b'\r' };
-    let (mut comment, mut header, mut count, mut of_colmap) = (None, None, None, false);
+    let (mut comment, mut count, mut of_colmap) = (None, None, false);
+    let mut words: Vec<(usize, &[u8])> = Vec::new();
     let most = input.options.limits.line_bytes;
     let start = input.bytes.len() - without_mark(input.bytes).len();
     for line in (Lines { bytes: input.bytes, at: start, line_end, most }) {
@@ -60,16 +65,20 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
             continue;
         }
         // How programs of tables tell each other what stands between words.
-        if line.get(..4).is_some_and(|start| start.eq_ignore_ascii_case(b"sep=")) && header.is_none() {
+        if line.get(..4).is_some_and(|start| start.eq_ignore_ascii_case(b"sep=")) && words.is_empty() {
             continue;
         }
         let writing = Writing::of(line);
         let is_alone = writing.fields(line).nth(1).is_none();
+        let header = header_of(&words, writing);
         let place =
             if is_alone { 0 } else { first_read(input, header.map(|(_, line)| line), comment, writing) };
         let first = writing.fields(line).nth(place).or(writing.fields(line).next()).unwrap_or_default();
         let rest = Lines { bytes: input.bytes, at, line_end, most };
-        let is_row = writing.number(first).is_some() || header.is_none() && is_row_with_words(writing, rest)?;
+        let is_row = writing.number(first).is_some() || words.is_empty() && is_row_with_words(writing, rest)?;
+        // Behind the names of columns there may be their units, and else rows.
+        let names_columns = || words.last().is_some_and(|(_, line)| names_columns(line, writing));
+        let is_wrong = !is_row && !are_units(line, writing) && names_columns();
         match (is_row, is_alone) {
             (true, true) if count.is_none() => count = Some((at, line)),
             (true, true) => {
@@ -80,20 +89,30 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
             }
             (true, false) => {
                 let start = count.map_or(at, |(at, _)| at);
-                let Found { columns, ignored, geographic } =
+                let Found { columns, ignored, geographic, has_header } =
                     match of_colmap && input.options.columns.is_none() {
                         true => colmap(),
                         false => columns(input, writing, at, header, comment, rest)?,
                     };
                 let counted = count.is_some();
-                return Ok(Layout { writing, columns, geographic, ignored, start, counted, line_end });
+                let titles = words.len() as u64 - u64::from(has_header);
+                return Ok(Layout {
+                    writing,
+                    columns,
+                    geographic,
+                    ignored,
+                    titles,
+                    start,
+                    counted,
+                    line_end,
+                });
             }
-            (false, _) if header.is_none() && count.is_none() => header = Some((at, line)),
+            (false, _) if words.len() < MOST_TITLES && count.is_none() && !is_wrong => words.push((at, line)),
             (false, _) => return Err((at, format!("'{}'; expected a number", shown(first)))),
         }
     }
-    match (header, count) {
-        (Some((at, line)), _) => Err((at, format!("'{}'; expected rows of numbers", shown(line)))),
+    match (words.first(), count) {
+        (Some(&(at, line)), _) => Err((at, format!("'{}'; expected rows of numbers", shown(line)))),
         (None, Some((at, line))) => Err((at, format!("'{}' and no rows; expected x y z", shown(line)))),
         (None, None) => Err((0, "no rows of numbers; expected x y z".to_owned())),
     }
@@ -117,7 +136,7 @@ fn is_row_with_words(writing: Writing, lines: Lines<'_>) -> Result<bool, Fault> 
 /// The columns of `points3D.txt`, by its description in COLMAP's documentation.
 fn colmap() -> Found<Columns> {
     let columns = "-,x,y,z,r,g,b".parse().unwrap_or_else(|_| Columns::default());
-    Found { columns, ignored: vec!["errors and tracks".to_owned()], geographic: false }
+    Found { columns, ignored: vec!["errors and tracks".to_owned()], geographic: false, has_header: false }
 }
 
 fn too_long(most: usize) -> String {
@@ -143,40 +162,6 @@ fn first_read(input: &Input<'_>, header: Option<&[u8]>, comment: Option<&[u8]>, 
     columns.and_then(|columns| columns.iter().position(is_read)).unwrap_or(0)
 }
 
-/// The columns `C`, what those are called that are not read, and whether x and y are degrees.
-struct Found<C> {
-    columns: C,
-    ignored: Vec<String>,
-    geographic: bool,
-}
-
-/// What a line names.
-fn named(line: &[u8]) -> Found<Vec<Column>> {
-    let text = String::from_utf8_lossy(line);
-    let names = || text.split([',', ';', '\t', ' ']).map(str::trim).filter(|name| !name.is_empty());
-    let mut columns: Vec<Column> = names().map(Column::of_header).collect();
-    let has = |axis| columns.contains(&Column::Position(axis));
-    let of_degrees = || names().map(Column::of_geographic_header);
-    let geographic = !has(0) && !has(1) && of_degrees().flatten().count() == 2;
-    if geographic {
-        columns = columns.iter().zip(of_degrees()).map(|(other, found)| found.unwrap_or(*other)).collect();
-    }
-    let others = columns.iter().zip(names()).filter(|(column, _)| **column == Column::Other);
-    let ignored = others.map(|(_, name)| format!("column '{}'", shown(name.as_bytes()))).collect();
-    Found { columns, ignored, geographic }
-}
-
-/// As [`named`], of a header: blanks may be part of names where something else stands between them.
-fn of_header(line: &[u8], writing: Writing) -> Found<Vec<Column>> {
-    let words: Vec<Vec<u8>> = Writing { decimal_comma: false, ..writing }
-        .fields(line)
-        // A name that is empty is one, as that of the row's number in tables of pandas.
-        .map(|name| if name.is_empty() { b"-" } else { name })
-        .map(|name| name.iter().map(|b| if *b == b' ' { b'_' } else { *b }).collect())
-        .collect();
-    named(&words.join(&b' '))
-}
-
 fn columns(
     input: &Input<'_>,
     writing: Writing,
@@ -191,26 +176,32 @@ fn columns(
         let behind = width.saturating_sub(given.columns().len());
         // Those that the user names `-` are ignored by their own word.
         let ignored = vec![format!("column {}", given.columns().len() + 1); behind.min(1)];
-        return Ok(Found { columns: given.clone(), ignored, geographic: false });
+        // A header is, then, no title.
+        let has_header = header.is_some();
+        return Ok(Found { columns: given.clone(), ignored, geographic: false, has_header });
     }
     if let Some((at, line)) = header {
-        let Found { columns, ignored, geographic } = of_header(line, writing);
-        let columns = Columns::new(columns)
-            .map_err(|problem| (at, format!("header: {problem}, or --columns to name them")))?;
-        return Ok(Found { columns, ignored, geographic });
+        let Found { columns, ignored, geographic, .. } = of_header(line, writing);
+        // A line of another number of words, without names of columns, is a title.
+        let is_title = columns.len() != width && columns.iter().all(|column| *column == Column::Other);
+        if !is_title {
+            let columns = Columns::new(columns)
+                .map_err(|problem| (at, format!("header: {problem}, or --columns to name them")))?;
+            return Ok(Found { columns, ignored, geographic, has_header: true });
+        }
     }
-    if let Some(Found { columns, ignored, geographic }) = comment.map(named)
+    if let Some(Found { columns, ignored, geographic, has_header }) = comment.map(named)
         && columns.len() == width
         && let Ok(columns) = Columns::new(columns)
     {
-        return Ok(Found { columns, ignored, geographic });
+        return Ok(Found { columns, ignored, geographic, has_header });
     }
     let samples = samples(writing, width, Lines { at, ..rows })?;
     let columns = by_numbers::columns(width, &samples);
     let ignored = (1..).zip(&columns).filter(|(_, column)| **column == Column::Other);
     let ignored = ignored.map(|(i, _)| format!("column {i}")).collect();
     match Columns::new(columns) {
-        Ok(columns) => Ok(Found { columns, ignored, geographic: false }),
+        Ok(columns) => Ok(Found { columns, ignored, geographic: false, has_header: false }),
         Err(_) => Err((at, format!("{width} numbers in a row; expected at least 3"))),
     }
 }

@@ -4,6 +4,7 @@
 mod by_numbers;
 mod columns;
 mod fields;
+mod header;
 mod layout;
 mod rows;
 #[cfg(test)]
@@ -37,6 +38,7 @@ fn loaded(rows: Rows, layout: &Layout) -> Loaded {
                 // A little above is rounding.
                 ..=1.001 => (1.0, ", colors 0–1"),
                 ..=255.0 => (255.0, ", colors 0–255"),
+                ..=4095.0 => (4095.0, ", colors 0–4095"),
                 _ => (65535.0, ", colors 0–65535"),
             };
             let (colors, outside) = shade::from_srgb(&rows.colors, scale);
@@ -68,6 +70,7 @@ fn loaded(rows: Rows, layout: &Layout) -> Loaded {
     }
     loaded.note(Deed::Clamped, outside, "points with a color out of its range");
     loaded.note(Deed::Ignored, longer, "rows with more numbers than columns, whose rest is");
+    loaded.note(Deed::Ignored, layout.titles, "lines of words above the rows");
     let ignored = &layout.ignored;
     if !ignored.is_empty() {
         let names: Vec<&str> = ignored.iter().take(8).map(String::as_str).collect();

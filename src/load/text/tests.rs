@@ -57,6 +57,35 @@ fn columns_are_told_by_their_number() {
 }
 
 #[test]
+fn titles_names_and_units_stand_above_rows() {
+    let (_, loaded) = points("Survey of a church\nx y z\n[m] [m] [m]\n1 2 3\n4 5 6\n");
+    assert_eq!(loaded.format, "rows of x y z");
+    assert_eq!(notes(&loaded), ["2 lines of words above the rows ignored"]);
+    let (two, loaded) = points("Survey\n1 2 3 0.5\n4 5 6 1\n");
+    assert_eq!((two.positions.len(), loaded.format.as_str()), (2, "rows of x y z i, intensity as gray"));
+    assert_eq!(notes(&loaded), ["1 line of words above the rows ignored"]);
+    refuses(
+        "east north up\n1 2 3\n",
+        "line 1: header: no columns x, y and z; expected them, or --columns to name them",
+    );
+    refuses(&"a title\n".repeat(9), "line 9: 'a'; expected a number");
+}
+
+#[test]
+fn a_label_behind_a_color_is_none_and_12_bits_have_their_white() {
+    let rows = |of: fn(i32) -> String| (0..200).map(of).collect::<Vec<_>>().join("\n");
+    let color = |i: i32| format!("{i}.5 2 3 {} {} {}", i % 90, i % 70, i % 80);
+    let label = rows(|i| format!("{i}.5 2 3 {} {} {} {}", i % 90, i % 70, i % 80, i % 5));
+    assert_eq!(points(&label).1.format, "rows of x y z r g b -, colors 0–255");
+    let two = rows(|i| format!("{i}.5 2 3 {} {} {} {} {}", i % 90, i % 70, i % 80, i % 5, i / 9));
+    assert_eq!(points(&two).1.format, "rows of x y z r g b - -, colors 0–255");
+    let intensity = rows(|i| format!("{i}.5 2 3 {} {} {} {}", i % 90, i % 70, i % 80, i % 85));
+    assert_eq!(points(&intensity).1.format, "rows of x y z i r g b, colors 0–255");
+    let of_12_bits = format!("{}\n1 2 3 4095 0 0\n", color(3));
+    assert_eq!(points(&of_12_bits).1.format, "rows of x y z r g b, colors 0–4095");
+}
+
+#[test]
 fn a_first_column_that_counts_rows_is_none_of_the_place() {
     let rows = |first: &dyn Fn(u32) -> u32, count: u32| -> String {
         (0..count).map(|i| format!("{} {}.5 2 3\n", first(i), i % 7)).collect()

@@ -113,6 +113,7 @@ fn integer_colors_are_bytes_where_all_fit_them() {
         let rows = format!("{least}0 0 0 51 102 0\n");
         colors("red green blue", kind, &rows, &[[1.0, 0.0, 128.0 / 255.0], [0.2, 0.4, 0.0]]);
     }
+    colors("red green blue", "ushort", "0 0 0 4095 0 819\n", &[[1.0, 0.0, 0.2]]);
     let dark = 51.0 / 65_535.0;
     for kind in ["ushort", "uint", "int"] {
         colors(
@@ -147,6 +148,8 @@ fn intensities_are_grays_where_there_is_no_color() {
         gray("float", "0 0 0 2048\n0 0 0 512\n", [1.0, 0.25]);
         gray("ushort", "0 0 0 65535\n0 0 0 13107\n", [1.0, 0.2]);
         gray("uchar", "0 0 0 102\n0 0 0 51\n", [0.4, 0.2]);
+        // Where the scanner had none.
+        gray("float", "0 0 0 nan\n0 0 0 1\n", [0.0, 1.0]);
         let properties = of_type(name, "float") + &of_type("red green blue", "uchar");
         let points = points(&cloud(&properties, "0 0 0 0.5 255 0 0\n"));
         assert_eq!(each_color(&points.colors), [[1.0, 0.0, 0.0, 1.0]]);
