@@ -63,7 +63,7 @@ pub use scene_file::{
 };
 pub use text::{Column, Columns};
 
-/// Reads a file whole, or standard input where the path is `-`: PLY, OBJ, rows of numbers (XYZ, PTS, CSV), PCD, OFF,
+/// Reads a file whole, or standard input where the path is `-`: PLY, OBJ, rows of numbers (XYZ, PTS, PTX, CSV), PCD, OFF,
 /// STL, and with their Cargo features LAS, LAZ and COPC, E57, glTF and GLB, and Potree 2 by its `metadata.json`; gzip or zstd around any of them.
 ///
 /// Elements that can't be drawn (not finite, zero size) stay in: the scene and geometry modules drop and count them.

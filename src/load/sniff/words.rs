@@ -41,7 +41,11 @@ pub(super) fn by_words(probe: &[u8]) -> Option<Format> {
     // A header of words, or a number of rows, may stand before them.
     let is_row = |line: &[u8]| numbers(line) >= 3;
     let second = lines.find(is_data);
-    (is_row(first) || second.is_some_and(is_row)).then_some(Format::Rows)
+    // In PTX files two numbers and a place.
+    let is_number = |line: &[u8]| numbers(line) == 1;
+    let begins_scan =
+        is_number(first) && second.is_some_and(is_number) && lines.find(is_data).is_some_and(is_row);
+    (is_row(first) || second.is_some_and(is_row) || begins_scan).then_some(Format::Rows)
 }
 
 /// Without the mark that some editors write before UTF-8.

@@ -82,10 +82,7 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
         match (is_row, is_alone) {
             (true, true) if count.is_none() => count = Some((at, line)),
             (true, true) => {
-                return Err((
-                    at,
-                    "a second line of one number, as in PTX files; expected rows of x y z".to_owned(),
-                ));
+                return Err((at, "a second line of one number; expected rows of x y z".to_owned()));
             }
             (true, false) => {
                 let start = count.map_or(at, |(at, _)| at);

@@ -1,4 +1,4 @@
-//! Points as rows of numbers: XYZ, PTS, CSV and whatever else people call it. [`layout`] says which columns are
+//! Points as rows of numbers: XYZ, PTS, CSV and whatever else people call it, and [`ptx`]. [`layout`] says which columns are
 //! what.
 
 mod by_numbers;
@@ -6,6 +6,7 @@ mod columns;
 mod fields;
 mod header;
 mod layout;
+mod ptx;
 mod rows;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,9 @@ use rows::Rows;
 pub use columns::{Column, Columns};
 
 pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
+    if input.options.columns.is_none() && ptx::is_ptx(input.bytes, input.options.limits.line_bytes) {
+        return ptx::parse(input);
+    }
     let fault = |(at, problem): Fault| input.fault(input.line(at), problem);
     let layout = layout::layout(input).map_err(fault)?;
     let rows =

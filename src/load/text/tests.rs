@@ -230,7 +230,7 @@ fn pts_files_count_their_rows_a_scan() {
         "18446744073709551616\n1 2 3\n",
         "line 1: 18446744073709552000 rows are said to follow, but 1 do",
     );
-    refuses("2\n3\n1 2 3\n", "line 2: a second line of one number, as in PTX files; expected rows of x y z");
+    refuses("2\n3\n1 2\n", "line 2: a second line of one number; expected rows of x y z");
 }
 
 #[test]
