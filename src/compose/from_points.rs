@@ -28,7 +28,8 @@ pub(super) fn parts(
         let mut points = own.transformed(&object.world_from_object);
         points.colors.tint(object.color, object.alpha);
         let (splats, report) = splats_from_points(points, progress);
-        let (object, mut told) = finish(Object { name, splats, closed: false }, report.to_string(), None);
+        let closed = report.around_scanner;
+        let (object, mut told) = finish(Object { name, splats, closed }, report.to_string(), None);
         told.notes = [report.notes(), told.notes].concat();
         told.because = "points become disks that close their surface".to_owned();
         Parts { splats: Some(object), triangles: None, levels: None, report: told }

@@ -157,6 +157,25 @@ fn what_was_done_and_what_the_file_holds_is_in_the_report() {
 }
 
 #[test]
+fn what_stands_around_its_scanner_is_not_drawn_from_behind() {
+    let folder = folder();
+    let at = |i: u32| {
+        let z = f64::from(i) / 300.0 - 1.0;
+        let ([x, y], r) = ((2.4 * f64::from(i)).sin_cos().into(), (1.0 - z * z).sqrt());
+        format!("{} {} {z}\n", r * x, r * y)
+    };
+    let points: String = (0..600).map(at).collect();
+    for (place, around) in [("0.2 0 0", true), ("3 0 0", false)] {
+        let fields = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 600\nHEIGHT 1";
+        let text = format!("{fields}\nVIEWPOINT {place} 1 0 0 0\nPOINTS 600\nDATA ascii\n{points}");
+        fs::write(folder.path().join("scan.pcd"), text).unwrap();
+        let made = make_one(&of_file(&folder, "scan.pcd"), &()).unwrap();
+        assert_eq!(made.splats.unwrap().closed, around);
+        assert_eq!(made.report.summary.contains("not drawn from behind"), around);
+    }
+}
+
+#[test]
 fn the_built_in_ball_is_drawn_as_either() {
     let ball = ObjectDescription {
         alpha: 0.0,

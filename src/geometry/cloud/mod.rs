@@ -6,6 +6,7 @@
 //!
 //! Splats are round: ellipses take half as much memory again (48 bytes on the device instead of 32), and gain only where points lie much denser along one direction than across.
 
+mod around;
 mod fit;
 mod merge;
 mod noise;
@@ -53,6 +54,7 @@ pub fn splats_from_points(points: Points, progress: &dyn Progress) -> (Splats, C
     let mut cloud = Cloud::new(&points);
     let steps = Steps { progress, passes: 2 };
     cloud.find_planes(&points, &steps, &mut report);
+    report.around_scanner = report.sides == Sides::TowardScanner && around::surround_scanners(&points);
     report.coarse_step = merge::coarse_step(&points.positions, &cloud.spreads, duplicates);
     let isolated = outliers::isolated(&cloud.tree, &cloud.neighbors, &cloud.spreads);
     let radii = cloud.radii(&points, &isolated, &steps, &mut report);

@@ -45,6 +45,8 @@ pub struct CloudReport {
     pub normals_from_file: usize,
     /// The sides of the other normals.
     pub sides: Sides,
+    /// Most were seen from among them, as in a room: what faces away from there hides it from outside.
+    pub around_scanner: bool,
     /// Points whose radius was taken from the file.
     pub radii_from_file: usize,
     /// Sizes of points in the file that are no radii.
@@ -111,6 +113,12 @@ impl fmt::Display for CloudReport {
             told.map(|(count, one, many, done)| format!("{} {done}", number(count, one, many))).collect();
         if !told.is_empty() {
             write!(f, "; {}", told.join(", "))?;
+        }
+        if self.around_scanner {
+            write!(
+                f,
+                "; not drawn from behind, for the scanner stood among them (--backfaces flip if it is to be)"
+            )?;
         }
         if let Some(step) = self.coarse_step {
             // Two digits.

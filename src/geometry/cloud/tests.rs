@@ -276,7 +276,8 @@ fn normals_face_the_viewpoint_where_there_is_one() {
     let samples = s.many(3000, Surfaces::sphere);
     let viewpoints = Viewpoint::of_all(3000, Some(0.2 * DVec3::X));
     let inside = Points { viewpoints, ..points(samples.iter().map(|s| s.0)) };
-    let (splats, _) = splats_from_points(inside, &());
+    let (splats, report) = splats_from_points(inside, &());
+    assert!(report.around_scanner);
     assert_eq!(errors(&splats, &samples).1, 3000);
     // A sheet, the first third of which is seen from above and the rest from below; some are there twice.
     let at = |i: usize| DVec3::new((i % 60) as f64, (i / 60 % 49) as f64, 0.0);
