@@ -60,6 +60,8 @@ pub struct Chunk {
     pub epsilon: Option<Epsilon>,
     /// Some of its splats have less ε than others: where another surface is near.
     pub own_epsilon: bool,
+    /// It is of an object that clip curves cut, some of it or all.
+    pub is_sharp: bool,
     /// Disks in 16 bytes, colors in 4: [`SplatFormat::Packed`](crate::scene::SplatFormat::Packed).
     pub packed: bool,
     /// Its levels of detail, if it has any.
@@ -132,6 +134,7 @@ impl Chunk {
             clipped: survey.clipped,
             epsilon: None,
             own_epsilon: false,
+            is_sharp: false,
             packed: survey.packed,
             levels: levels.map(|(levels, _)| levels),
             inverse_overlap: 1.0,

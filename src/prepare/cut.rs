@@ -205,8 +205,9 @@ impl Cut<'_, '_> {
             Some((leveled, _)) if known.is_some() => one_for_all(leveled.overlap),
             _ => one_for_all(Overlaps::of(splats).mean),
         };
-        let both_sides = auto && exact && (transparent || !object.closed);
-        let shares = match both_sides {
+        let is_sharp = !splats.clips.is_empty();
+        let of_each = auto && exact && (transparent || !object.closed || is_sharp);
+        let shares = match of_each {
             true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
             false => None,
         };
@@ -266,6 +267,7 @@ impl Cut<'_, '_> {
             chunk.object = part.number;
             chunk.epsilon = part.epsilon;
             chunk.own_epsilon = part.shares.is_some();
+            chunk.is_sharp = !splats.clips.is_empty();
             let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
             let packed = batches.map(|which| {
                 let packed = pack::pack(splats, which, &survey, part.beside());

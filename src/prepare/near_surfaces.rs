@@ -8,6 +8,11 @@
 //! A gap of less than three spreads, of its own surface or of what faces the other way within 1.5 radii, or of less than a 20th of the
 //! radius, is none: normals of one surface that look to both sides, as those of a cloud nobody oriented, are not a plate.
 //!
+//! Splats of a surface with sharp edges, which clip curves cut, are as large as its faces are, and what is within their radius may be anything:
+//! a part inside of a box, the next rib. Of those ε is twice the spread alone, at least a 20th of a radius, and the spread is that of
+//! neighbors toward which the surface may have turned: where normals are θ apart, and it turns evenly between, a center that is d away is
+//! d sin θ/2 from the plane, and beyond an edge between two faces d sin θ at the most.
+//!
 //! The splats lie in a grid whose cells are as large as the neighborhood of the median radius, each with a cone around its normals. Cells
 //! near which no two normals can be 120° apart, most of any scan, are done with a look at the cones.
 
@@ -30,6 +35,9 @@ const LEAST_SPREADS: f64 = 3.0;
 /// The least gap, in radii.
 const LEAST_RADII: f64 = 0.05;
 
+/// The least ε of surfaces with sharp edges, in radii.
+const LEAST_OF_SHARP: f64 = 0.05;
+
 /// So many cells are a task.
 const CELLS_AT_ONCE: usize = 256;
 
@@ -46,7 +54,7 @@ pub(super) fn shares(splats: &Splats, radii: f64) -> Option<Vec<f32>> {
     let numbers: Vec<u32> = drawn.map_while(|i| u32::try_from(i).ok()).collect();
     let cell = 2.0 * radii * median_radius(splats, &numbers)?;
     let grid = Grid::new(splats, numbers, cell);
-    let work = Work { splats, radii, grid: &grid };
+    let work = Work { splats, radii, grid: &grid, is_sharp: !splats.clips.is_empty() };
     let parts = grid.cells.par_chunks(CELLS_AT_ONCE);
     let found: Vec<(u32, f32)> = parts.flat_map_iter(|cells| work.less_than_all(cells)).collect();
     if found.is_empty() {
@@ -174,6 +182,8 @@ struct Work<'a> {
     splats: &'a Splats,
     radii: f64,
     grid: &'a Grid,
+    /// Clip curves cut some of them.
+    is_sharp: bool,
 }
 
 impl Work<'_> {
@@ -182,9 +192,12 @@ impl Work<'_> {
         let mut found = Vec::new();
         for cell in cells {
             let near = self.near(cell);
-            let own = if near.is_empty() { 0..0 } else { cell.places.clone() };
+            let own = if near.is_empty() && !self.is_sharp { 0..0 } else { cell.places.clone() };
             for place in &self.grid.places[own] {
-                let share = self.share(place.splat as usize, &near);
+                let share = match self.is_sharp {
+                    true => self.share_of_sharp(place.splat as usize, &near),
+                    false => self.share(place.splat as usize, &near),
+                };
                 if share < 1.0 {
                     found.push((place.splat, share as f32));
                 }
@@ -208,7 +221,7 @@ impl Work<'_> {
             between + cell.angle_rad + other.angle_rad > other_way - 1e-6
         };
         let count: usize = near.iter().map(|other| other.places.len()).sum();
-        if count > MOST_CANDIDATES || !near.iter().any(may_face_the_other_way) {
+        if count > MOST_CANDIDATES || !self.is_sharp && !near.iter().any(may_face_the_other_way) {
             return Vec::new();
         }
         let neighbor = |place: &Place| {
@@ -220,6 +233,21 @@ impl Work<'_> {
             }
         };
         near.iter().flat_map(|other| self.grid.places[other.places.clone()].iter().map(neighbor)).collect()
+    }
+
+    fn share_of_sharp(&self, i: usize, near: &[Neighbor]) -> f64 {
+        let (position, radius) = (self.splats.positions[i], self.splats.major_radius(i));
+        let normal = normal_of(self.splats, i);
+        let mut spread = 0.0_f64;
+        for neighbor in near.iter().filter(|neighbor| neighbor.normal.dot(normal) >= SAME_WAY) {
+            let to = neighbor.position - position;
+            let (off, squared) = (to.dot(normal).abs(), to.length_squared());
+            let is_close = squared <= CLOSE * CLOSE * radius * radius;
+            if is_close && off * off <= squared * neighbor.normal.cross(normal).length_squared() {
+                spread = spread.max(off);
+            }
+        }
+        (f64::max(2.0 * spread, LEAST_OF_SHARP * radius) / (self.radii * radius)).min(1.0)
     }
 
     fn share(&self, i: usize, near: &[Neighbor]) -> f64 {

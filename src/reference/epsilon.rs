@@ -32,7 +32,7 @@ impl EpsilonRule {
                 // The far side of what is closed and opaque is not drawn, and where pixels are covered in part no opaque surface has both
                 // sides. Packed splats have no room for a share.
                 let one_side = object.closed || settings.covers_in_part();
-                let sides = opacity == Opacity::Transparent || !one_side;
+                let sides = opacity == Opacity::Transparent || !one_side || !object.splats.clips.is_empty();
                 let exact = scene.storage.format == SplatFormat::Exact;
                 Self::Radii(radii, (sides && exact).then(|| shares(&object.splats, radii)))
             }

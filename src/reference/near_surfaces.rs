@@ -17,6 +17,9 @@ struct Oriented {
 /// face the other way (normals beyond 120°), and d, the largest of those that are within 1.5 radii and face the same way (within 60°): the
 /// larger of g/2 and 2d, at most ε; all of ε where there is none, and where g is less than 3d, less than thrice the range in which those lie
 /// that are within 1.5 radii and face the other way, or less than a 20th of the radius.
+///
+/// Where clip curves cut the splats: 2d, at least a 20th of the radius and at most ε, with d of those alone whose distance from the plane is at most the sine
+/// between both normals of that from the center.
 pub(super) fn shares(splats: &Splats, radii: f64) -> Vec<f64> {
     let mut all: Vec<Oriented> = (0..splats.len())
         .filter(|&i| splats.defect(i).is_none())
@@ -34,6 +37,20 @@ pub(super) fn shares(splats: &Splats, radii: f64) -> Vec<f64> {
         let first = all.partition_point(|other| other.center.x < of.center.x - 2.0 * epsilon);
         let slab = all[first..].iter().take_while(|other| other.center.x <= of.center.x + 2.0 * epsilon);
         let others = slab.filter(|other| other.number != of.number);
+        if !splats.clips.is_empty() {
+            let mut farthest = 0.0_f64;
+            for other in others {
+                let to = other.center - of.center;
+                let from_plane = to.dot(of.normal);
+                let same_way = other.normal.dot(of.normal) >= 0.5 && to.length() <= 1.5 * of.radius;
+                let sine = (1.0 - other.normal.dot(of.normal).powi(2)).max(0.0).sqrt();
+                if same_way && from_plane.abs() <= sine * to.length() {
+                    farthest = farthest.max(from_plane.abs());
+                }
+            }
+            shares[of.number] = ((2.0 * farthest).max(0.05 * of.radius) / epsilon).min(1.0);
+            continue;
+        }
         let (mut spread, mut gap) = (0.0_f64, f64::INFINITY);
         let mut close_others = Vec::new();
         for other in others {

@@ -16,6 +16,7 @@ mod encoding;
 mod gather;
 mod host_camera;
 mod hybrid;
+mod kept;
 mod layers;
 mod lengths;
 mod level_settings;
@@ -184,7 +185,7 @@ impl Scene {
         let center = bounds.center();
         let reach = |splats: &Splats| {
             let drawn = (0..splats.len()).filter(|&i| splats.defect(i).is_none());
-            drawn.map(|i| splats.positions[i].distance(center) + splats.major_radius(i)).fold(0.0, f64::max)
+            drawn.map(|i| splats.reach_from(i, center)).fold(0.0, f64::max)
         };
         let reach_of_triangles = |mesh: &Mesh| {
             let corners = (0..mesh.triangles.len()).filter_map(|i| mesh.corners(i)).flatten();

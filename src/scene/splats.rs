@@ -177,13 +177,10 @@ impl Splats {
         self.clips = self.clips.picked((0..keep.len()).filter(|&i| keep[i]));
     }
 
-    /// The box around all disks (each taken as the ball of its major radius); splats with a [`Defect`] are left
-    /// out. `None` where nothing is left.
+    /// The box around all disks (each taken as the ball of its major radius, or, of a surface that clip curves cut, as what is left of it);
+    /// splats with a [`Defect`] are left out. `None` where nothing is left.
     pub fn bounds(&self) -> Option<Bounds> {
-        (0..self.len())
-            .filter(|&i| self.defect(i).is_none())
-            .map(|i| Bounds::of_ball(self.positions[i], self.major_radius(i)))
-            .reduce(Bounds::union)
+        (0..self.len()).filter(|&i| self.defect(i).is_none()).map(|i| self.bounds_of(i)).reduce(Bounds::union)
     }
 }
 

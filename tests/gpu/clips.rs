@@ -6,11 +6,16 @@ use crate::common::{
     shared, with, with_points_up_to,
 };
 use crate::orthographic::parallel;
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use surfel::{
+    geometry::sharp::{SharpOptions, sharp_splats},
+    hard_scenes::parts,
     prepare::Chunk,
     renderer::Headless,
-    scene::{Clips, Colors, Edges, Filter, Layers, Rasterizer, Settings, TileInvocations},
+    scene::{
+        Clips, Colors, Edges, Filter, Layers, Object, Rasterizer, Scene, Settings, Shading, Splats,
+        TileInvocations,
+    },
     selftest::{light::compare_light, tolerance::LIGHT},
 };
 
@@ -115,5 +120,38 @@ fn splats_without_clips_have_no_buffer_and_no_pipeline_for_them() {
         let bytes = |chunk: &Chunk| u64::from(chunk.count) * (if chunk.fine { 64 } else { 48 } + 8);
         let expected = prepared.chunks().iter().map(bytes).sum::<u64>() + 96 * u64::from(clipped);
         assert_eq!(prepared.bytes(), expected);
+    }
+}
+
+/// A box of twelve clipped splats, each as large as a face, around a red ball: nothing of it is seen, of one object or of two.
+#[test]
+fn what_is_behind_large_splats_is_not_seen_through_them() {
+    let mut headless = shared();
+    let options = SharpOptions::default();
+    let (mut cube, _) = sharp_splats(&parts::cube(1), &options, &()).unwrap();
+    let (mut ball, _) = sharp_splats(&parts::cube(4), &options, &()).unwrap();
+    let half = DAffine3::from_scale(DVec3::splat(0.5));
+    ball = ball.transformed(&half);
+    ball.colors = Colors::Uniform([1.0, 0.0, 0.0, 1.0]);
+    cube.colors = Colors::Uniform([0.0, 0.0, 1.0, 1.0]);
+    let object = |splats: &Splats| Object { name: String::new(), splats: splats.clone(), closed: true };
+    let two = vec![object(&cube), object(&ball)];
+    let mut both = cube.clone();
+    both.append(ball);
+    for objects in [two, vec![object(&both)]] {
+        for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
+            let mut hard = with(&scenes::clipped(), |settings| {
+                settings.rasterizer = rasterizer;
+                settings.edges = Settings::default().edges;
+                settings.shading = Shading::Albedo;
+                settings.background = None;
+            });
+            hard.camera = builder::camera([3.0, 2.0, 4.0], [0.0; 3]);
+            hard.scene = Scene { objects: objects.clone(), ..Scene::default() };
+            let frame = render_as(&mut headless, &hard, PICTURE);
+            let red = frame.linear.iter().filter(|color| color[0] > 0.01).count();
+            let blue = frame.linear.iter().filter(|color| color[2] > 0.9).count();
+            assert!(red == 0 && blue > 2000, "{rasterizer:?}: {red} red pixels, {blue} blue");
+        }
     }
 }

@@ -282,8 +282,10 @@ fn with_edges(mut draw: Draw<'_>, two_sided: bool) -> Draw<'_> {
     draw.variant.push((SPEC_COVERAGE_EDGES, 1));
     if two_sided {
         draw.variant.push((SPEC_TWO_SIDED, 1));
-        // Surfaces are of one side: how near the other one is does not matter.
-        draw.variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
+        // Surfaces are of one side: how near the other one is does not matter. Of sharp ones it is not that alone.
+        if !draw.chunk.is_sharp {
+            draw.variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
+        }
     }
     draw
 }

@@ -1,7 +1,10 @@
 //! Plates, clouds that nobody oriented, and what is hostile.
 
 use super::*;
-use crate::{math::random::SplitMix, scene::Colors};
+use crate::{
+    math::random::SplitMix,
+    scene::{Clip, ClipCurve, Clips, Colors},
+};
 
 /// Two sides of a plate so thick, spaced 0.8 radii of 1, with normals that look outward, or to both sides at random.
 fn plate(thick: f64, noise: f64, oriented: bool) -> Splats {
@@ -47,6 +50,40 @@ fn one_surface_is_no_plate_whatever_way_its_normals_look() {
         assert!(cut <= 2, "{noise}: {cut} of 900");
     }
     assert_eq!(shares(&crate::load::builtin::sphere(20_000).splats, 2.0), None);
+}
+
+/// Of a face with clip curves what is 0.4 radii behind it, and faces the same way, is none of its surface; what bends away is.
+#[test]
+fn surfaces_with_sharp_edges_have_the_epsilon_of_what_their_planes_meet() {
+    let sharp = |of: Splats| {
+        let count = of.len();
+        let mut clips = vec![Clip::None; count];
+        clips[0] = Clip::One(ClipCurve::line(0.0, 1.0)); // which a disk can't have: it is not drawn
+        Splats { clips: Clips::of(clips), ..of }
+    };
+    let mut behind = plate(0.4, 0.0, true);
+    if let Shapes::Disks { normals, .. } = &mut behind.shapes {
+        normals.fill(Vec3::Z);
+    }
+    assert_eq!(shares(&behind, 1.0), None, "as a surface with noise");
+    let flat = shares(&sharp(behind), 1.0).unwrap();
+    assert!(flat[1..].iter().all(|share| (*share - 0.05).abs() < 1e-6), "{:?}", &flat[..9]);
+    let mut bent = plate(0.0, 0.0, true);
+    bent.keep(&[vec![true; 900], vec![false; 900]].concat());
+    if let Shapes::Disks { normals, .. } = &mut bent.shapes {
+        for (at, normal) in bent.positions.iter_mut().zip(normals) {
+            let x = (0.1 * at.x).sin_cos();
+            (at.x, at.z, *normal) = (10.0 * x.0, 10.0 * x.1, Vec3::new(x.0 as f32, 0.0, x.1 as f32));
+        }
+    }
+    // 1.5 radii away of a cylinder of 10.
+    let bent = shares(&sharp(bent), 1.0).unwrap();
+    let of_few = bent[1..].iter().filter(|share| !(0.05..0.226).contains(*share)).count();
+    assert!(
+        of_few == 0 && bent.iter().filter(|share| **share > 0.06).count() > 800,
+        "{of_few} {:?}",
+        &bent[..9]
+    );
 }
 
 #[test]
