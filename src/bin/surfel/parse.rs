@@ -87,7 +87,12 @@ pub fn number(
 ) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |word| {
         let number = word.parse().ok().filter(|number| range.contains(number));
-        number.ok_or_else(|| format!("expected {unit}, {} to {}", range.start(), range.end()))
+        // The ends of what f64 holds are none that anyone means.
+        let ends = match (*range.start(), *range.end()) {
+            (f64::MIN_POSITIVE, f64::MAX) => String::new(),
+            (start, end) => format!(", {start} to {end}"),
+        };
+        number.ok_or_else(|| format!("expected {unit}{ends}"))
     }
 }
 

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::{
     error::{Error, Result},
-    geometry::{corners, topology::signed_volume},
+    geometry::{sharp::slivers, topology::signed_volume},
     notes::{Deed, Note},
     scene::{Colors, Mesh},
 };
@@ -68,11 +68,7 @@ impl Sound {
     pub fn of(mesh: &Mesh) -> Result<Self> {
         let (mut mesh, mut repairs) = (mesh.clone(), Repairs::default());
         repairs.welded = weld(&mut mesh);
-        let before = mesh.triangles.len();
-        let has_area: Vec<bool> = mesh.triangles.par_iter().map(|t| corners(&mesh, *t).is_some()).collect();
-        let mut keep = has_area.iter();
-        mesh.triangles.retain(|_| *keep.next().unwrap_or(&false));
-        repairs.degenerate = before - mesh.triangles.len();
+        repairs.degenerate = slivers::leave_out(&mut mesh);
         repairs.repeated = drop_repeated(&mut mesh.triangles);
         if mesh.triangles.is_empty() {
             return Err(Error::input("mesh", "", "no triangle with an area; expected one"));

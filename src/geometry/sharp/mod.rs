@@ -17,6 +17,7 @@ mod model;
 mod quadric;
 mod ridges;
 mod rim;
+mod slivers;
 #[cfg(test)]
 mod tests;
 
