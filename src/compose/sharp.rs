@@ -21,12 +21,18 @@ pub fn sharpened(
 ) -> Result<(Object, InputReport)> {
     let (splats, made) = sharp_splats(mesh, options, progress)?;
     let counts = [mesh.positions.len(), mesh.triangles.len()];
+    let size = mesh.bounds().map_or(0.0, |bounds| (bounds.max - bounds.min).length());
+    let asked = options.splats.filter(|asked| (splats.len() as u64) > *asked);
     let object = Object { name, splats, closed: made.closed };
-    let (object, report) = finish(object, head(counts, &made), Some(counts));
+    let (object, report) = finish(object, head(counts, &made, size, asked), Some(counts));
     Ok((object, InputReport { notes: [made.repairs.notes(), report.notes].concat(), ..report }))
 }
 
-fn head([vertices, triangles]: [usize; 2], made: &SharpReport) -> String {
+/// An error above so much of the size is seen.
+const FEW: f64 = 1e-3;
+
+/// `size`: the diagonal of the box around it. `asked`: the splats that were asked for, where there are more.
+fn head([vertices, triangles]: [usize; 2], made: &SharpReport, size: f64, asked: Option<u64>) -> String {
     let mut head = format!(
         "{}, {}: {}; {} in {}, {} clipped",
         counted(vertices, "vertex", "vertices"),
@@ -38,6 +44,12 @@ fn head([vertices, triangles]: [usize; 2], made: &SharpReport) -> String {
     );
     if made.error > 0.0 {
         head += &format!(", error up to {:.3e}", made.error);
+        if made.error > FEW * size {
+            head += &format!(", {:.1}% of its size", 100.0 * made.error / size);
+        }
+    }
+    if let Some(asked) = asked {
+        head += &format!(", more splats than the {asked} asked for, because no other edge can be left out");
     }
     if made.crowded > 0 {
         head += &format!(", {} with more ridges than can be cut", made.crowded);

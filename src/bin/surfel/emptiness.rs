@@ -1,7 +1,7 @@
 //! Why a picture shows nothing, and what to try: nobody should look at a white page and wonder.
 
 use glam::DVec3;
-use surfel::scene::{Ball, Camera, ClipBox, ClipPlanes, Settings};
+use surfel::scene::{Ball, Budget, Camera, ClipBox, ClipPlanes, Settings};
 
 /// What to say of a picture that is all background; `None` where something is seen.
 pub fn hint(pixels: &[[u8; 4]], settings: &Settings, camera: &Camera, ball: &Ball) -> Option<String> {
@@ -48,6 +48,7 @@ fn not_seen(settings: &Settings) -> String {
     let given = [
         ("--clip-box", settings.clip_box != ClipBox::default()),
         ("--clip-plane", settings.clip_planes != ClipPlanes::default()),
+        ("--budget", settings.budget != Budget::default()),
     ];
     let given: Vec<&str> =
         given.into_iter().filter(|(_, is_given)| *is_given).map(|(option, _)| option).collect();

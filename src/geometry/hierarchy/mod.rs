@@ -179,7 +179,7 @@ fn check(splats: &Splats) -> Result<()> {
     if !splats.clips.is_empty() {
         let clipped = splats.clips.count();
         return refused(format!(
-            "{clipped} with clip curves, of which no node takes account; expected what they leave of splats"
+            "{clipped} with clip curves, which levels of detail do not have; expected splats without: of a mesh those of --resample, or write a .ply"
         ));
     }
     let unusable = (0..splats.len()).into_par_iter().find_first(|&i| {

@@ -4,7 +4,10 @@
 /// First bytes, and what they are.
 const BY_FIRST_BYTES: [(&[u8], &str); 26] = [
     (b"version https://git-lfs", "a git-lfs pointer, not the file itself (run `git lfs pull`)"),
-    (b"\x89SURFEL", "a hierarchy of splats, which `surfel render` and `surfel info` take by themselves"),
+    (
+        b"\x89SURFEL",
+        "a .surfel file, which render, view and info take on the command line, and scene files and others do not",
+    ),
     (b"PK\x03\x04", "a zip archive (unpack it first)"),
     (b"PK\x05\x06", "an empty zip archive"),
     (b"BZh", "a bzip2 archive (unpack it first)"),
