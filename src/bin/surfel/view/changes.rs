@@ -2,10 +2,9 @@
 
 use std::time::Instant;
 
-use glam::DVec3;
 use surfel::{
     Result,
-    scene::{AXES, Layers, MOST_LAYERS, OptionValue as _, Settings, Stops, Tonemap},
+    scene::{Layers, MOST_LAYERS, OptionValue as _, Settings, Stops, Tonemap},
 };
 
 use super::{
@@ -47,13 +46,12 @@ impl Viewer {
             Action::Keys => self.ui.toggle_keys(),
             Action::Close => self.ui.close(),
             Action::Home | Action::Fit | Action::See(_) | Action::Turns | Action::NextUp => {
-                let up = self.next_up();
                 let Some(navigation) = &mut self.navigation else { return Ok(()) };
                 match action {
                     Action::Home => navigation.go_home(),
                     Action::Fit => navigation.fit(window_px),
                     Action::See(view) => navigation.see_from(view, window_px),
-                    Action::NextUp => navigation.set_axis(up),
+                    Action::NextUp => self.ui.tell(&format!("{} is up", navigation.next_axis())),
                     _ => navigation.is_free = !navigation.is_free,
                 }
                 if action == Action::Turns {
@@ -126,7 +124,21 @@ impl Viewer {
                 self.gpu.headless.renderer.check_levels(paged.scene(), &camera, &settings)?;
             }
         }
-        self.document.as_ref().map_or(Ok(()), |document| settings.check_scene(&document.scene))
+        let Some(document) = &self.document else { return Ok(()) };
+        self.edits.check(&document.scene, &settings)?;
+        settings.check_scene(&document.scene)
+    }
+
+    /// Other changes of the scene, if they can be drawn.
+    pub fn edit(&mut self, edits: Edits) {
+        let Some(document) = &self.document else { return };
+        match edits.check(&document.scene, &self.settings) {
+            Ok(()) => {
+                self.edits = edits;
+                self.prepare(false);
+            }
+            Err(error) => self.tell(&error.to_string()),
+        }
     }
 
     /// All but the camera as it was at first.
@@ -183,13 +195,6 @@ impl Viewer {
             self.ui.tell(&format!("splats {scale:.2} times as large"));
             self.prepare(false);
         }
-    }
-
-    fn next_up(&self) -> DVec3 {
-        let up = self.camera().map_or(DVec3::Y, |camera| camera.usable_up().normalize_or(DVec3::Y));
-        let nearest = |axis: &DVec3| axis.dot(up);
-        let now = (0..AXES.len()).max_by(|a, b| nearest(&AXES[*a].1).total_cmp(&nearest(&AXES[*b].1)));
-        AXES[(now.unwrap_or(0) + 1) % AXES.len()].1
     }
 
     fn toggle_projection(&mut self) {

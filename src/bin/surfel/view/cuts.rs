@@ -1,7 +1,7 @@
 //! Planes that cut the scene, by key: one that faces the eye, or a box.
 
 use glam::DVec3;
-use surfel::scene::{ClipBox, ClipPlanes, OptionValue as _, Settings};
+use surfel::scene::{Bounds, ClipBox, ClipPlanes, OptionValue as _, Settings};
 
 use super::{keys::Cutting, viewer::Viewer};
 
@@ -17,12 +17,20 @@ impl Viewer {
         let radius = document.ball.radius;
         let cut = match how {
             Cutting::Plane => plane(&self.settings, navigation.pivot(), navigation.forward()),
-            Cutting::Box => around(&self.settings, document.ball.center, 0.5 * radius),
+            Cutting::Box => around(
+                &self.settings,
+                document.scene.bounds().unwrap_or(Bounds::of_ball(document.ball.center, radius)),
+            ),
             Cutting::More => moved(&self.settings, STEP * radius, LEAST_HALF * radius),
             Cutting::Less => moved(&self.settings, -STEP * radius, LEAST_HALF * radius),
         };
         let words = words(&cut);
-        self.ui.tell(if words.is_empty() { "nothing is cut" } else { &words });
+        let told = match (words.is_empty(), how) {
+            (true, _) => "nothing is cut".to_owned(),
+            (false, Cutting::Box) => format!("{words}: around all; = cuts away, - less"),
+            (false, _) => words,
+        };
+        self.ui.tell(&told);
         self.set(cut);
     }
 }
@@ -46,9 +54,9 @@ fn plane(settings: &Settings, point: DVec3, axis: DVec3) -> Settings {
     Settings { clip_planes, clip_box: ClipBox(None), ..settings.clone() }
 }
 
-/// A box about a point; none where there is one.
-fn around(settings: &Settings, center: DVec3, half: f64) -> Settings {
-    let corners = [center - half, center + half].map(|corner| corner.to_array());
+/// A box; none where there is one.
+fn around(settings: &Settings, bounds: Bounds) -> Settings {
+    let corners = [bounds.min, bounds.max].map(|corner| corner.to_array());
     let clip_box = ClipBox(settings.clip_box.0.is_none().then_some(corners));
     Settings { clip_box, clip_planes: ClipPlanes::default(), ..settings.clone() }
 }
@@ -80,13 +88,14 @@ mod tests {
         assert_eq!(*cut.clip_planes.0, [[0.0, 0.0, 1.0, 2.0]]);
         assert_eq!(*moved(&cut, 0.5, 0.1).clip_planes.0, [[0.0, 0.0, 1.0, 2.5]]);
         assert_eq!(plane(&cut, DVec3::ZERO, DVec3::Z), none);
-        let whole = around(&cut, DVec3::X, 2.0);
+        let bounds = Bounds::of_ball(DVec3::X, 2.0);
+        let whole = around(&cut, bounds);
         assert!(whole.clip_planes.0.is_empty());
         assert_eq!(whole.clip_box.0, Some([[-1.0, -2.0, -2.0], [3.0, 2.0, 2.0]]));
         let less = moved(&whole, 0.5, 0.1);
         assert_eq!(less.clip_box.0, Some([[-0.5, -1.5, -1.5], [2.5, 1.5, 1.5]]));
         assert_eq!(moved(&less, -0.5, 0.1), whole);
         assert_eq!(moved(&whole, 9.0, 0.5).clip_box.0, Some([[0.5, -0.5, -0.5], [1.5, 0.5, 0.5]]));
-        assert_eq!(around(&whole, DVec3::X, 2.0), none);
+        assert_eq!(around(&whole, bounds), none);
     }
 }

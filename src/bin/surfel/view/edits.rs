@@ -1,8 +1,9 @@
 //! What the viewer changes of a scene before it goes to the device: what is seen, how transparent, how large splats are.
 
 use surfel::{
+    Result,
     notes::counted,
-    scene::{HybridLevels, Object, Opacity, Scene, Shapes, Splats},
+    scene::{HybridLevels, Object, Opacity, Scene, Settings, Shapes, Splats},
 };
 
 /// Changes of a scene. Things are objects, then meshes, then those in levels of detail.
@@ -24,6 +25,16 @@ impl Edits {
     /// Whether they leave the scene as it is.
     pub fn are_none(&self) -> bool {
         self.splat_scale == 1.0 && self.things.iter().all(|thing| *thing == (true, 1.0))
+    }
+
+    /// Refuses settings that are not for what these changes make transparent.
+    ///
+    /// # Errors
+    /// As [`Settings::check_eye_dome`].
+    pub fn check(&self, scene: &Scene, settings: &Settings) -> Result<()> {
+        let seen = things(scene).into_iter().zip(&self.things).filter(|(_, (seen, _))| *seen);
+        let mut transparent = seen.filter(|(_, (_, alpha))| *alpha < 1.0);
+        transparent.try_for_each(|((name, _), _)| settings.check_eye_dome(&name, "transparent"))
     }
 
     /// The scene with these changes. An object in levels of detail that is changed is drawn as its own splats, and a mesh that gets another alpha as its
@@ -147,7 +158,7 @@ mod tests {
     use surfel::{
         geometry::{HybridOptions, multiresolution},
         load::builtin::sphere_mesh,
-        scene::{Colors, Epsilon, MeshObject},
+        scene::{Colors, Epsilon, MeshObject, Shading},
     };
 
     use super::*;
@@ -180,6 +191,21 @@ mod tests {
         assert_eq!(new.splats.overlap, 4.0 * old.splats.overlap);
         let edited = Edits { things: vec![(true, 0.5), (true, 1.0)], splat_scale: 1.0 }.of(&scene);
         assert_eq!(edited.hybrids.iter().map(|levels| levels.mesh).collect::<Vec<_>>(), [1]);
+    }
+
+    #[test]
+    fn what_is_made_transparent_has_no_eye_dome_lighting() {
+        let scene = Scene { objects: vec![object("a", 1.0), object("b", 2.0)], ..Scene::default() };
+        let edl = Settings { shading: Shading::EyeDome, ..Settings::default() };
+        let with = |things: [(bool, f32); 2]| Edits { things: things.into(), splat_scale: 1.0 };
+        for (things, settings, is_drawn) in [
+            ([(true, 1.0), (true, 1.0)], &edl, true),
+            ([(true, 1.0), (true, 0.9)], &edl, false),
+            ([(true, 1.0), (false, 0.9)], &edl, true),
+            ([(true, 1.0), (true, 0.9)], &Settings::default(), true),
+        ] {
+            assert_eq!(with(things).check(&scene, settings).is_ok(), is_drawn, "{things:?}");
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! How the camera moves under mouse and keys: about a pivot, along the picture, toward what is under the cursor.
 
 use glam::{DQuat, DVec3};
-use surfel::scene::{Ball, Camera, View, toward_eye};
+use surfel::scene::{AXES, Ball, Camera, View, toward_eye};
 
 /// A camera on the move.
 #[derive(Clone, Debug)]
@@ -123,6 +123,18 @@ impl Navigation {
     /// Another direction is up; the eye stays.
     pub fn set_axis(&mut self, axis: DVec3) {
         (self.axis, self.camera.up, self.is_free) = (axis, axis, false);
+    }
+
+    /// The next of the axes is up that the camera does not look along; says which.
+    pub fn next_axis(&mut self) -> &'static str {
+        let nearest = |axis: &usize| AXES[*axis].1.dot(self.axis);
+        let now = (0..AXES.len()).max_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap_or(0);
+        let forward = self.forward();
+        let others = (1..=AXES.len()).map(|by| AXES[(now + by) % AXES.len()]);
+        let (name, axis) =
+            others.clone().find(|(_, axis)| axis.dot(forward).abs() < 0.999).unwrap_or(AXES[now]);
+        self.set_axis(axis);
+        name
     }
 
     /// From a perspective to parallel rays and back, with what is at the target as large as before.

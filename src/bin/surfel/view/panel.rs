@@ -97,10 +97,7 @@ impl Viewer {
                 self.encoding.tonemap = tonemap;
                 self.changed();
             }
-            Change::Edits(edits) => {
-                self.edits = edits;
-                self.prepare(false);
-            }
+            Change::Edits(edits) => self.edit(edits),
             Change::SplatScale(scale) => self.set_splat_scale(scale),
             Change::Act(action) => self.act(action)?,
         }

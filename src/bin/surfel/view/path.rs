@@ -13,6 +13,15 @@ use crate::camera::{path_text, read_path};
 /// Seconds from one place to the next.
 const STEP_SECS: f64 = 2.0;
 
+/// As a shell takes it for one word.
+fn as_word(text: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-+,".contains(c);
+    match text.chars().all(is_plain) {
+        true => text.to_owned(),
+        false => format!("'{}'", text.replace('\'', r"'\''")),
+    }
+}
+
 /// The places of a path, and how far it is played.
 #[derive(Default)]
 pub struct Path {
@@ -101,7 +110,10 @@ impl Viewer {
         let name = free_name("surfel-path", "json");
         fs::write(&name, text).map_err(|error| Error::file(&name, "write", error))?;
         let name = name.display();
-        Ok(format!("{name} is written: surfel render --path {name} --frames 100 -o out%04d.png"))
+        let files = self.document.as_ref().map_or(&[][..], |document| &document.files.files);
+        let words: String =
+            files.iter().map(|file| format!("{} ", as_word(&file.display().to_string()))).collect();
+        Ok(format!("{name} is written: surfel render {words}--path {name} -o out%04d.png"))
     }
 
     /// Takes a path that was dropped in the place of the one there is.

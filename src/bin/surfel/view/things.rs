@@ -28,8 +28,7 @@ impl Viewer {
         let how = if *seen { format!("alpha {alpha:.1}") } else { "hidden".to_owned() };
         self.ui.tell(&format!("{} ({} of {count}): {how}", names[self.thing].0, self.thing + 1));
         if edits != self.edits {
-            self.edits = edits;
-            self.prepare(false);
+            self.edit(edits);
         }
     }
 }

@@ -234,7 +234,16 @@ impl Viewer {
             self.other = self.settings.clone();
             self.first.0 = self.settings.clone();
         }
-        self.settings.check_scene(&document.scene)?;
+        if let Err(error) = self.settings.check_scene(&document.scene) {
+            if first {
+                return Err(error);
+            }
+            // What is shown stays.
+            self.ui.reading = None;
+            self.keeps_camera = false;
+            self.tell(&error.to_string());
+            return Ok(());
+        }
         match &mut self.navigation {
             Some(navigation) if self.keeps_camera => navigation.set_ball(document.ball),
             navigation => *navigation = Some(Navigation::new(document.camera, document.ball)),

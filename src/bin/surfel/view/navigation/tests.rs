@@ -96,6 +96,15 @@ fn presets_are_sides_of_the_scene_whatever_is_up() {
 }
 
 #[test]
+fn each_axis_is_up_in_its_turn_but_those_that_the_camera_looks_along() {
+    let mut navigation = start();
+    navigation.see_from(View::Front, WINDOW_PX);
+    let names: Vec<_> = (0..5).map(|_| navigation.next_axis()).collect();
+    assert_eq!(names, ["-x", "-y", "x", "y", "-x"]);
+    assert_eq!(navigation.camera.up, DVec3::NEG_X);
+}
+
+#[test]
 fn projections_show_the_target_alike_and_come_back() {
     let mut navigation = start();
     let point = navigation.camera.target + DVec3::new(0.4, 0.3, 0.0);
