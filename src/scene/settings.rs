@@ -60,7 +60,8 @@ settings! {
         /// The most splats that are drawn of objects in levels of detail, such as 250k, of which about 99% are used; never finer than a `lod` that is given.
         "budget" "N|none" budget: Budget,
         /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r, or a
-        /// length; `auto` is 1r, of what is transparent 2r, and less where the other side of something thin is near.
+        /// length; `auto` is 1r, of what is transparent 2r, and less where the other side of something thin is near, and of splats with clip curves, which
+        /// are as large as the faces of a part.
         "epsilon" "auto|1r|LENGTH" epsilon: Epsilon = Epsilon::Auto,
         /// The treatment of splats that face away.
         "backfaces" "WHAT" backfaces: Backfaces,
