@@ -2,7 +2,8 @@
 //!
 //! Disks are `x y z nx ny nz radius`, ellipses `x y z su_x su_y su_z sv_x sv_y sv_z`; `red green blue` where the colors
 //! are not those of a surface without any, and `alpha` where one is not 1. The line `comment surfel closed` keeps what no
-//! property tells: that the splats sample a closed surface, so that those which face away need not be drawn.
+//! property tells: that the splats sample a closed surface, so that those which face away need not be drawn; `comment surfel up 0 0 1` which
+//! direction is up, where a file told it.
 //!
 //! **What is lost.** Normals, radii and tangent vectors: nothing. Positions: nothing as `double`; they are `float` only
 //! where that moves no splat by more than [`MOST_SHIFT`] of its radius. Colors: nothing that came from a file; the file
@@ -45,15 +46,22 @@ pub struct WrittenSplats {
     pub double_positions: bool,
 }
 
-/// Writes splats; those with a [`crate::scene::Defect`] too. `closed` as [`crate::scene::Object::closed`].
+/// Writes splats; those with a [`crate::scene::Defect`] too. `closed` as [`crate::scene::Object::closed`], `up` as
+/// [`crate::load::Loaded::up`].
 ///
 /// # Errors
 /// [`crate::ErrorKind::File`] if the file can't be written; nothing is left behind then.
-pub fn splats(path: &Path, splats: &Splats, closed: bool, progress: &dyn Progress) -> Result<WrittenSplats> {
+pub fn splats(
+    path: &Path,
+    splats: &Splats,
+    closed: bool,
+    up: Option<DVec3>,
+    progress: &dyn Progress,
+) -> Result<WrittenSplats> {
     let double_positions = (0..splats.len()).any(|i| single_loses(splats, i));
     let colors = ColorColumns::of(splats);
     let clips = ClipColumns::of(&splats.clips);
-    let header = header(splats, closed, double_positions, &colors, &clips);
+    let header = header(splats, (closed, up), double_positions, &colors, &clips);
     let mut row = Vec::new();
     let mut bytes = header.len() as u64;
     whole::write(path, |file| {
@@ -84,7 +92,7 @@ fn single_loses(splats: &Splats, i: usize) -> bool {
 
 fn header(
     splats: &Splats,
-    closed: bool,
+    (closed, up): (bool, Option<DVec3>),
     double_positions: bool,
     colors: &ColorColumns,
     clips: &ClipColumns,
@@ -94,6 +102,9 @@ fn header(
             .to_owned();
     if closed {
         text += "comment surfel closed\n";
+    }
+    if let Some(up) = up {
+        text += &format!("comment surfel up {} {} {}\n", up.x, up.y, up.z);
     }
     text += &format!("element vertex {}\n", splats.len());
     let mut properties = |kind: &str, names: &[&str]| {

@@ -17,7 +17,7 @@ fn every_example_leaves_its_pictures_and_the_layer_is_silent() {
     let folder = TempDir::new().unwrap();
     let at = |name: &str| folder.child(name);
     let relief = surfel::load::builtin::relief(5000);
-    surfel::save::splats(&at("relief.ply"), &relief.splats, relief.closed, &()).unwrap();
+    surfel::save::splats(&at("relief.ply"), &relief.splats, relief.closed, None, &()).unwrap();
     let splats = "relief.ply".to_owned();
     let runs: [(&str, Vec<String>, Vec<&str>); 7] = [
         ("minimal", vec!["minimal.png".to_owned()], vec!["minimal.png"]),

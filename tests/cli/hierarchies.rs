@@ -134,7 +134,10 @@ fn where_memory_ends_the_picture_is_coarser_and_a_line_says_so() {
     );
     let refused = surfel(&folder, &["compare", "a.surfel"]);
     assert!(
-        refused.code == 1 && refused.stderr.contains("a .surfel file, which render, view and info take on the command line"),
+        refused.code == 1
+            && refused
+                .stderr
+                .contains("a .surfel file, which render, view and info take on the command line"),
         "{}",
         refused.stderr
     );

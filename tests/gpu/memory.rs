@@ -84,7 +84,7 @@ fn write(path: &Path, colors: bool, ellipses: bool) {
         let (s, t): (Vec<Vec3>, Vec<Vec3>) = tangents.unzip();
         splats.shapes = Shapes::Ellipses { s, t };
     }
-    save::splats(path, &splats, true, &()).unwrap();
+    save::splats(path, &splats, true, None, &()).unwrap();
 }
 
 fn read(path: &Path) -> (Splats, bool) {

@@ -12,7 +12,7 @@ use surfel::{
 fn round_trip(splats: &Splats, closed: bool) -> (Splats, WrittenSplats, String) {
     let folder = temp_dir::TempDir::new().unwrap();
     let path = folder.path().join("a.ply");
-    let written = save::splats(&path, splats, closed, &()).unwrap();
+    let written = save::splats(&path, splats, closed, None, &()).unwrap();
     let bytes = std::fs::read(&path).unwrap();
     assert_eq!(written.bytes, bytes.len() as u64);
     let text = String::from_utf8_lossy(&bytes);
@@ -181,7 +181,7 @@ fn what_cannot_be_drawn_is_written_as_it_is() {
 fn a_file_of_no_splats_is_written_and_refused_when_it_is_read() {
     let folder = temp_dir::TempDir::new().unwrap();
     let path = folder.path().join("none.ply");
-    save::splats(&path, &disks(Vec::new(), Colors::unknown()), true, &()).unwrap();
+    save::splats(&path, &disks(Vec::new(), Colors::unknown()), true, None, &()).unwrap();
     let refused = load(&path, &LoadOptions::default(), &()).unwrap_err().to_string();
     assert!(refused.ends_with("file without splats; expected some"), "{refused}");
 }
@@ -200,4 +200,24 @@ fn colors_of_no_file_are_off_by_units_of_the_last_place() {
     println!("colors off by {worst:e} of themselves");
     // Where the transfer function is steepest in relative terms (2.4 times), a step of f32 becomes 2.4 steps.
     assert!(worst <= 2.5 * f32::EPSILON, "{worst:e}");
+}
+
+#[test]
+fn which_direction_is_up_stays_so() {
+    let folder = temp_dir::TempDir::new().unwrap();
+    let path = folder.path().join("a.ply");
+    let up = |path: &std::path::Path| load(path, &LoadOptions::default(), &()).unwrap().up;
+    for told in [None, Some(DVec3::Z), Some(DVec3::new(0.25, -1e-7, 3.0))] {
+        save::splats(&path, &disks(near(3), Colors::unknown()), false, told, &()).unwrap();
+        assert_eq!(up(&path), told);
+    }
+    for none in ["0 0 0", "0 1", "0 0 1 0", "0 0 nan", "z"] {
+        let header = format!("ply\nformat ascii 1.0\ncomment surfel up {none}\nelement vertex 1\n");
+        std::fs::write(
+            &path,
+            header + "property float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n",
+        )
+        .unwrap();
+        assert_eq!(up(&path), None, "{none}");
+    }
 }

@@ -43,7 +43,8 @@ alpha (sRGB) where the model has colors. Parts of ellipses are cut off by clip_a
 clip2_, and clip_mode (0: either removes, 1: both must): a rational Bezier curve in the plane of the splat from angle a1 \
 of its rim to a3 (radians, from su toward sv), with (u, v) its middle control point and w the weight of that; what is to the right \
 of the way is removed, and NaN is no curve. Positions are 64-bit where 32 bits would move a splat. The header line \"comment \
-surfel closed\" tells `surfel render` that the surface is closed, so that splats that face away need not be drawn.
+surfel closed\" tells `surfel render` that the surface is closed, so that splats that face away need not be drawn, \"comment surfel up 0 0 1\" which \
+direction is up where the input's own format tells it.
 
 A file that is named .surfel holds the splats and their levels of detail in pages, of which `surfel render --lod 1px` reads those that its \
 view needs (docs/format.md).";
@@ -125,7 +126,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     if is_hierarchy(&arguments.output) {
         return write_hierarchy(arguments, object, up, &summary, &bars);
     }
-    let written = save::splats(&arguments.output, &object.splats, object.closed, &bars);
+    let written = save::splats(&arguments.output, &object.splats, object.closed, up, &bars);
     bars.clear();
     let written = written?;
     let kind = splats_kind(&object.splats);

@@ -12,7 +12,7 @@ use crate::{
 fn in_parts(object: &Object) -> (Vec<u8>, usize, Splats) {
     let folder = temp_dir::TempDir::new().unwrap();
     let [ply, path] = ["a.ply", "a.surfel"].map(|name| folder.path().join(name));
-    save::splats(&ply, &object.splats, object.closed, &()).unwrap();
+    save::splats(&ply, &object.splats, object.closed, None, &()).unwrap();
     let mut rows = SplatRows::open(&ply, &LoadOptions::default()).unwrap().unwrap();
     assert_eq!(rows.count(), object.splats.len() as u64);
     let mut bytes = Vec::new();
@@ -112,7 +112,7 @@ fn defects_are_left_out_or_refused() {
     let [ply, path] = ["a.ply", "a.surfel"].map(|name| folder.path().join(name));
     let mut object = relief(1000);
     object.splats.positions[17] = DVec3::NAN;
-    save::splats(&ply, &object.splats, false, &()).unwrap();
+    save::splats(&ply, &object.splats, false, None, &()).unwrap();
     let open = || SplatRows::open(&ply, &LoadOptions::default()).unwrap().unwrap();
     let refused = convert_splats(open(), &path, LEAST_MEMORY, true, &()).unwrap_err().to_string();
     assert!(refused.contains("1 splat left out: 1 position not finite; expected none"), "{refused}");

@@ -31,7 +31,7 @@ impl Palette {
                 [_, white] => Self::Grays(white),
             },
             1..=255 => Self::Bytes,
-            ..=MOST_OF_12_BITS => Self::Words(MOST_OF_12_BITS),
+            256..=MOST_OF_12_BITS => Self::Words(MOST_OF_12_BITS),
             _ => Self::Words(u16::MAX),
         }
     }

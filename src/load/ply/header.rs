@@ -5,6 +5,8 @@
 
 use std::collections::HashSet;
 
+use glam::DVec3;
+
 use super::schema::{Element, Encoding, Kind, Property, Scalar};
 use crate::{
     error::{Error, Result},
@@ -24,6 +26,8 @@ pub(super) struct Header {
     pub line_end: u8,
     /// It has the line `comment surfel closed`: the splats sample a closed surface and their normals point outward.
     pub closed: bool,
+    /// The direction of a line such as `comment surfel up 0 0 1`.
+    pub up: Option<DVec3>,
     /// `save/` wrote it: colors have the whole range of their type, 0 to 1 for `float`.
     pub own: bool,
 }
@@ -33,6 +37,7 @@ const OWN: &str = "splats: disks with radius, or tangent vectors";
 
 /// A comment that says what a splat file has no property for, see [`Header::closed`]. `save/` writes it.
 const CLOSED: &str = "surfel closed";
+const UP: &str = "surfel up ";
 
 pub(super) fn parse(input: &Input<'_>) -> Result<Header> {
     let line_end = match input.bytes {
@@ -68,6 +73,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Header> {
         lines: lines.line,
         line_end,
         closed: statements.closed,
+        up: statements.up,
         own: statements.own,
     })
 }
@@ -121,10 +127,20 @@ struct Statements {
     encoding: Option<Encoding>,
     elements: Vec<Element>,
     closed: bool,
+    up: Option<DVec3>,
     own: bool,
     element_names: HashSet<String>,
     /// Those of the last element.
     property_names: HashSet<String>,
+}
+
+/// The direction that a comment says is up.
+fn up(comment: &[u8]) -> Option<DVec3> {
+    let words = str::from_utf8(comment.strip_prefix(UP.as_bytes())?).ok()?;
+    let numbers: Vec<f64> =
+        words.split_ascii_whitespace().map(|word| word.parse().ok()).collect::<Option<_>>()?;
+    let up = DVec3::from(<[f64; 3]>::try_from(numbers).ok()?);
+    (up.is_finite() && up != DVec3::ZERO).then_some(up)
 }
 
 impl Statements {
@@ -135,6 +151,9 @@ impl Statements {
         if matches!(keyword, b"comment" | b"obj_info" | b"") {
             // They may have any encoding.
             self.closed |= keyword == b"comment" && rest.trim_ascii() == CLOSED.as_bytes();
+            if keyword == b"comment" {
+                self.up = up(rest.trim_ascii()).or(self.up);
+            }
             self.own |= keyword == b"comment" && rest.trim_ascii() == OWN.as_bytes();
             return Ok(());
         }

@@ -60,6 +60,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
             gaussians(read, format!("{words}, {dimensions} Gaussians"))
         }
     };
+    loaded.up = header.up;
     loaded.note(Deed::Clamped, beyond, "colors beyond 0 to 1");
     for what in &layout.ignored {
         loaded.note(Deed::Ignored, vertex_def.count, what.as_str());

@@ -207,6 +207,9 @@ impl<'a> SurfacePlan<'a> {
         let shades = !self.bands().is_empty() && (transparent || self.tiles_can_shade(&self.settings));
         let coverage = shades && self.settings.covers_in_part();
         if !coverage {
+            if !self.bands().is_empty() && self.settings.covers_in_part() {
+                self.reason = NOT_IN_PART;
+            }
             self.settings.edges = Edges::Hard;
         }
         if !coverage && !transparent {
@@ -276,6 +279,9 @@ impl<'a> SurfacePlan<'a> {
         self.splats.is_empty() && self.meshes.is_empty()
     }
 }
+
+/// Why surfaces do not cover pixels in part that tiles draw.
+const NOT_IN_PART: &str = "edges are hard, since some splats are too large, or too many, to cover pixels in part: --samples 8 smooths them";
 
 /// A chunk of splats whose surface covers pixels in part where it ends.
 fn with_edges(mut draw: Draw<'_>, two_sided: bool) -> Draw<'_> {

@@ -24,7 +24,7 @@ pub fn written_and_read(case: &Case) -> Case {
     let object = &case.hard.scene.objects[0];
     let folder = temp_dir::TempDir::new().unwrap();
     let path = folder.path().join("scene.ply");
-    save::splats(&path, &object.splats, object.closed, &()).unwrap();
+    save::splats(&path, &object.splats, object.closed, None, &()).unwrap();
     assert!(fs::metadata(&path).unwrap().len() > 100);
     let Model::Splats { splats, closed } = load(&path, &LoadOptions::default(), &()).unwrap().model else {
         panic!("a mesh was read")
