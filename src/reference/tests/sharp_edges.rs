@@ -145,7 +145,8 @@ fn cutting_takes_the_ears_away_and_curves_more_of_them_than_lines() {
     let [shared, own, lines, unclipped] = table("bored block", &bored_block(96, 6), 600);
     let sum = |wrong: [usize; 2]| wrong[0] + wrong[1];
     assert!(20 * shared[1] < unclipped[1] && 10 * sum(shared) < sum(unclipped), "{shared:?} {unclipped:?}");
-    assert!(10 * sum(shared) < 11 * sum(own) && sum(shared) < sum(lines), "{shared:?} {own:?} {lines:?}");
+    // With the ε of sharp surfaces what lies behind slivers is not taken for what is missing: 54 and 31 pixels, where one radius as ε left no more of shared ones than of own.
+    assert!(4 * sum(shared) < 5 * sum(own) && sum(shared) < sum(lines), "{shared:?} {own:?} {lines:?}");
 }
 
 #[test]
