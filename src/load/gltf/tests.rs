@@ -126,6 +126,8 @@ fn all_modes_are_triangles_or_points() {
     let both = loaded(&with_data(node, &bare));
     assert_eq!(notes(&both)[0], "1 primitive without normals, so that those of all are replaced");
     assert!(mesh(both).normals.is_none());
+    let alone = loaded(&with_data(node, r#"{"attributes": {"POSITION": 0}, "indices": 3}"#));
+    assert!(notes(&alone).iter().all(|note| !note.contains("normals")), "{:?}", notes(&alone));
     let twice = mesh(loaded(&with_data(node, &format!("{ALL}, {ALL}"))));
     assert_eq!((twice.positions.len(), twice.triangles.len()), (4, 4));
 }
