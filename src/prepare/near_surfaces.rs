@@ -191,11 +191,16 @@ impl Work<'_> {
     fn less_than_all(&self, cells: &[Cell]) -> Vec<(u32, f32)> {
         let mut found = Vec::new();
         for cell in cells {
-            let near = self.near(cell);
-            let own = if near.is_empty() && !self.is_sharp { 0..0 } else { cell.places.clone() };
-            for place in &self.grid.places[own] {
+            let own = &self.grid.places[cell.places.clone()];
+            let radius = |place: &Place| self.splats.major_radius(place.splat as usize);
+            let near = if self.is_sharp { Vec::new() } else { self.near(cell, own.iter().map(radius)) };
+            for place in own.iter().filter(|_| self.is_sharp || !near.is_empty()) {
                 let share = match self.is_sharp {
-                    true => self.share_of_sharp(place.splat as usize, &near),
+                    // Some are a hundred times as large as others beside them, so that each looks for its own.
+                    true => {
+                        let around = self.around(cell, CLOSE * radius(place));
+                        self.share_of_sharp(place.splat as usize, &self.neighbors(&around))
+                    }
                     false => self.share(place.splat as usize, &near),
                 };
                 if share < 1.0 {
@@ -206,22 +211,29 @@ impl Work<'_> {
         found
     }
 
-    /// All that is near the splats of a cell; nothing where none of it can face the other way.
-    fn near(&self, cell: &Cell) -> Vec<Neighbor> {
-        let own = &self.grid.places[cell.places.clone()];
-        let radius = |place: &Place| self.splats.major_radius(place.splat as usize);
-        let reach = 2.0 * self.radii * own.iter().map(radius).fold(0.0, f64::max);
-        let cells = (reach / self.grid.cell).ceil().clamp(1.0, MOST_CELLS) as i32;
-        let corners = [-cells, cells].map(|by| own[0].cell.map(|x| x + by));
-        let near: Vec<&Cell> = self.grid.within(corners).collect();
+    /// All that is near the splats of a cell, which have these radii; nothing where none of it can face the other way.
+    fn near(&self, cell: &Cell, radii: impl Iterator<Item = f64>) -> Vec<Neighbor> {
+        let near = self.around(cell, 2.0 * self.radii * radii.fold(0.0, f64::max));
         let other_way = (-SAME_WAY).acos();
         let may_face_the_other_way = |other: &&Cell| {
             let between = other.axis.dot(cell.axis).clamp(-1.0, 1.0).acos();
             // With room for rounding.
             between + cell.angle_rad + other.angle_rad > other_way - 1e-6
         };
-        let count: usize = near.iter().map(|other| other.places.len()).sum();
-        if count > MOST_CANDIDATES || !self.is_sharp && !near.iter().any(may_face_the_other_way) {
+        if near.iter().any(may_face_the_other_way) { self.neighbors(&near) } else { Vec::new() }
+    }
+
+    /// The cells within a length of the splats of one.
+    fn around(&self, cell: &Cell, reach: f64) -> Vec<&Cell> {
+        let cells = (reach / self.grid.cell).ceil().clamp(1.0, MOST_CELLS) as i32;
+        let middle = self.grid.at(cell);
+        self.grid.within([-cells, cells].map(|by| middle.map(|x| x + by))).collect()
+    }
+
+    /// The splats of some cells; none of more than can be told apart.
+    fn neighbors(&self, cells: &[&Cell]) -> Vec<Neighbor> {
+        let count: usize = cells.iter().map(|other| other.places.len()).sum();
+        if count > MOST_CANDIDATES {
             return Vec::new();
         }
         let neighbor = |place: &Place| {
@@ -232,7 +244,7 @@ impl Work<'_> {
                 splat: place.splat,
             }
         };
-        near.iter().flat_map(|other| self.grid.places[other.places.clone()].iter().map(neighbor)).collect()
+        cells.iter().flat_map(|other| self.grid.places[other.places.clone()].iter().map(neighbor)).collect()
     }
 
     fn share_of_sharp(&self, i: usize, near: &[Neighbor]) -> f64 {
