@@ -10,8 +10,7 @@
 //!
 //! Splats of a surface with sharp edges, which clip curves cut, are as large as its faces are, and what is within their radius may be anything:
 //! a part inside of a box, the next rib. Of those ε is twice the spread alone, at least a 20th of a radius, and the spread is that of
-//! neighbors toward which the surface may have turned: where normals are θ apart, and it turns evenly between, a center that is d away is
-//! d sin θ/2 from the plane, and beyond an edge between two faces d sin θ at the most.
+//! neighbors toward which the surface may have turned: where normals are θ apart, a center d away is d sin θ from the plane at the most.
 //!
 //! The splats lie in a grid whose cells are as large as the neighborhood of the median radius, each with a cone around its normals. Cells
 //! near which no two normals can be 120° apart, most of any scan, are done with a look at the cones.
@@ -193,15 +192,24 @@ impl Work<'_> {
         for cell in cells {
             let own = &self.grid.places[cell.places.clone()];
             let radius = |place: &Place| self.splats.major_radius(place.splat as usize);
-            let near = if self.is_sharp { Vec::new() } else { self.near(cell, own.iter().map(radius)) };
+            let [least, most] =
+                own.iter().map(radius).fold([f64::INFINITY, 0.0], |[a, b], r| [r.min(a), r.max(b)]);
+            let alike = most <= 4.0 * least;
+            let near = match self.is_sharp {
+                true if alike => self.neighbors(&self.around(cell, CLOSE * most)),
+                true => Vec::new(),
+                false => self.near(cell, most),
+            };
             for place in own.iter().filter(|_| self.is_sharp || !near.is_empty()) {
-                let share = match self.is_sharp {
-                    // Some are a hundred times as large as others beside them, so that each looks for its own.
-                    true => {
-                        let around = self.around(cell, CLOSE * radius(place));
-                        self.share_of_sharp(place.splat as usize, &self.neighbors(&around))
+                let number = place.splat as usize;
+                let share = match (self.is_sharp, alike) {
+                    (false, _) => self.share(number, &near),
+                    (true, true) => self.share_of_sharp(number, &near),
+                    // Some are a hundred times as large as others beside them: each looks for its own.
+                    (true, false) => {
+                        let own = self.neighbors(&self.around(cell, CLOSE * radius(place)));
+                        self.share_of_sharp(number, &own)
                     }
-                    false => self.share(place.splat as usize, &near),
                 };
                 if share < 1.0 {
                     found.push((place.splat, share as f32));
@@ -211,9 +219,9 @@ impl Work<'_> {
         found
     }
 
-    /// All that is near the splats of a cell, which have these radii; nothing where none of it can face the other way.
-    fn near(&self, cell: &Cell, radii: impl Iterator<Item = f64>) -> Vec<Neighbor> {
-        let near = self.around(cell, 2.0 * self.radii * radii.fold(0.0, f64::max));
+    /// All that is near the splats of a cell, which have such a radius at most; nothing where none of it can face the other way.
+    fn near(&self, cell: &Cell, most: f64) -> Vec<Neighbor> {
+        let near = self.around(cell, 2.0 * self.radii * most);
         let other_way = (-SAME_WAY).acos();
         let may_face_the_other_way = |other: &&Cell| {
             let between = other.axis.dot(cell.axis).clamp(-1.0, 1.0).acos();
@@ -236,13 +244,9 @@ impl Work<'_> {
         if count > MOST_CANDIDATES {
             return Vec::new();
         }
-        let neighbor = |place: &Place| {
-            let i = place.splat as usize;
-            Neighbor {
-                position: self.splats.positions[i],
-                normal: normal_of(self.splats, i),
-                splat: place.splat,
-            }
+        let neighbor = |&Place { splat, .. }: &Place| {
+            let i = splat as usize;
+            Neighbor { position: self.splats.positions[i], normal: normal_of(self.splats, i), splat }
         };
         cells.iter().flat_map(|other| self.grid.places[other.places.clone()].iter().map(neighbor)).collect()
     }
