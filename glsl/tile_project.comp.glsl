@@ -19,6 +19,7 @@
 layout(constant_id = SPEC_MOST_TILES) const uint MOST_TILES = 64;
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
 layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
+layout(constant_id = SPEC_SHARP) const bool SHARP = false; // and edges are covered in part
 layout(constant_id = SPEC_LISTED) const bool LISTED = false; // of inc/list.glsl, records of which lie one behind the other
 
 layout(local_size_x = PROJECT_GROUP_SIZE) in;
@@ -45,6 +46,14 @@ bool find_splat(out uint index, out uint place)
         index = visible_list[place];
     }
     return index < frame.splat_count;
+}
+
+// What weights of a sharp surface are multiplied by, so that its sums are whole inside (inc/edges.glsl).
+float sum_of_sharp(Mapping m)
+{
+    vec3 ray = ray_through(m.p);
+    float facing = abs(dot(m.normal, ray)) / length(ray);
+    return mix(1.0, SHARP_SUM, smoothstep(SHARP_FACING, 2.0 * SHARP_FACING, facing));
 }
 
 bool is_beyond_planes(Mapping m)
@@ -113,6 +122,7 @@ void main()
     float w0 = map.at_x0.z;
     float uv_scale = map.affine ? 1.0 : 1.0 / w0;
     float share = share_of(m) * own_weight(index);
+    share *= SHARP ? sum_of_sharp(m) : 1.0;
     float blended = BLENDED ? weight_of_level(index) : 1.0;
     share *= blended;
     if (BLENDED) {

@@ -2,11 +2,15 @@
 //
 // The curve stays where it is when a filter widens the splat: its lines are mapped by the splat as the scene has it.
 //
-// COVERAGE_EDGES: a clipped edge is low-passed, as the splat is. Kernel and filter are Gaussians, of covariance V and h^2 (of the unit disk's
-// image, in the same multiple). What a pixel at d from the center has of the splat then comes from around P d, P = V (V + h^2)^-1 = 1 - h^2 (V +
-// h^2)^-1, with the covariance h^2 P: of a splat that is large beside h from around the pixel itself, of one that is small from all of the
-// splat, wherever the pixel is. So the curve is looked at in P d, and the part of it that is kept rises from 0 to 1 in a ramp with the slope of the
+// COVERAGE_EDGES: a clipped edge is low-passed, as the surface is that it ends. What a pixel at d from a splat's center has of the surface comes from
+// around P d, P = V (V + h^2)^-1: V is the covariance of a disk in the splat's plane, several times as large as the splat, since neighbors go on beyond it,
+// and h^2 the filter's, in the same multiple. So a surface that is large beside h is seen around the pixel itself, with the covariance h^2 P, and one that is
+// seen edge-on around the line that it is, however far from there the pixel's own (u, v) lie: unfiltered, its ridges would end in spikes.
+// The curve is looked at in P d, and the part of it that is kept rises from 0 to 1 in a ramp with the slope of the
 // normal distribution, sqrt(2 pi) sigma wide, sigma = 1/2 h sqrt(n P n) across the chord.
+//
+// In units of h, P = (V + det V) / (1 + trace V + det V), and det V is a square: nothing cancels. (u, v) of what is seen edge-on change a thousand times as
+// fast across its image as along it, so that P has to be 0 there to the last digit.
 //
 // Limits: affine at the center, as the filter is. Two curves are looked at one by one.
 
@@ -55,7 +59,10 @@ PlaneRows plane_rows(Splat splat)
     return rows;
 }
 
-// Where the low-pass filter lets a pixel see the splat: P, symmetric, as (xx, xy, yy).
+// The surface around a splat, in its radii.
+const float SURFACE_RADII = 2.0;
+
+// Where the low-pass filter lets a pixel see the surface: P, symmetric, as (xx, xy, yy).
 vec3 seen_through(Splat splat, Mapping m)
 {
     bool is_filtered = m.regular && (FILTER == FILTER_ADJUST || FILTER == FILTER_ADJUST_PAPER || FILTER == FILTER_EWA);
@@ -64,11 +71,15 @@ vec3 seen_through(Splat splat, Mapping m)
     }
     vec3 ray = ray_through(splat.p);
     vec2 c = ray.xy / ray.z;
-    vec2 a = (splat.s.xy - c * splat.s.z) / (ray.z * frame.filter_radius);
-    vec2 b = (splat.t.xy - c * splat.t.z) / (ray.z * frame.filter_radius);
-    vec3 wide = vec3(a.x * a.x + b.x * b.x + 1.0, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y + 1.0);
-    float det = wide.x * wide.z - wide.y * wide.y;
-    return vec3(1.0 - wide.z / det, wide.y / det, 1.0 - wide.x / det);
+    vec3 s = SURFACE_RADII * (dot(splat.s, splat.s) > dot(splat.t, splat.t) ? splat.s : splat.t);
+    vec3 t = cross(splat.normal, s);
+    vec2 a = (s.xy - c * s.z) / (ray.z * frame.filter_radius);
+    vec2 b = (t.xy - c * t.z) / (ray.z * frame.filter_radius);
+    vec3 image = vec3(a.x * a.x + b.x * b.x, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y);
+    float area = dot(s, s) / (ray.z * frame.filter_radius * ray.z * frame.filter_radius);
+    float across = area * normal_dot_ray(splat) / (length(splat.n) * ray.z); // a x b, to the last digit where it is seen edge-on
+    float det = across * across;
+    return (image + vec3(det, 0.0, det)) / (1.0 + image.x + image.z + det);
 }
 
 vec2 times(vec3 symmetric, vec2 v)

@@ -52,6 +52,7 @@
 #define SPEC_PLANES 62         // Constant: how many planes cut what is seen (`inc/planes.glsl`).
 #define SPEC_TINTED 65         // Constant: colors of chunks are multiplied by something (`inc/tints.glsl`).
 #define SPEC_OUTLINES 64       // Constant: rims of splats are black (`inc/outline.glsl`).
+#define SPEC_SHARP 72         // Constant: curves cut off some splats of the object, in this chunk or in others.
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
 // Values of SPEC_SUMMED.
@@ -255,6 +256,8 @@
 #define LEAST_SHIFT 1.0e-6            // Of its depth: a splat is shifted by as much at least, where it is shifted at all.
 #define MOST_EDGE_SURFACES 3        // Opaque surfaces behind each other that a pixel shows at their edges, at most.
 #define EDGE_LENGTHENING 16.0       // Of a slanted splat's epsilon where edges are covered in part (`inc/mapping.glsl`).
+#define SHARP_SUM 1.7               // Of a sharp surface that faces the eye, whose sums vary: what weights over the overlap are multiplied by (`inc/edges.glsl`).
+#define SHARP_FACING 0.3            // From this cosine between the normal and the ray on more and more, up to twice that.
 #define WHOLE_EDGE_SUM 0.79         // From this sum over the overlap on a pixel is covered.
 #define WHOLE_SEAM_SUM 0.4          // From this sum on, splats hide the polygons of the same surface: at a seam half of a surface's are there.
 #define EYE_DOME_STRENGTH 0.7         // How much darker eye-dome lighting makes a slope of 1 all around, as an exponent.

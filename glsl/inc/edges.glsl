@@ -16,6 +16,10 @@
 // opacity is max(A, C), and whole where next to nothing is missing. Own parts of several splats are taken for independent: what they leave
 // uncovered multiplies.
 //
+// Sharp surfaces are made of ellipses through the corners of triangles, slivers among them: at the corners of a flat side, and at its ridges, where
+// nothing lies beyond, A is a half of its mean, and less. There the curves tell what is covered (inc/clip_image.glsl), so that A may be too much: it is
+// SHARP_SUM times as much where the surface faces the eye, and not where it ends by turning away.
+//
 // Limits: surfaces of which several lie within a few epsilon; A of a thin line of splats is too
 // small.
 

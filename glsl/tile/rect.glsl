@@ -1,8 +1,8 @@
 // A tile rect, the tiles that a splat's box touches: tile of the first corner, x and y in PLACE_BITS each, then how many tiles more, in
 // half of the bits that are left for each; those along x are below three quarters of what these hold. The last quarter is of small
 // rects, whose tiles have 3 bits less each, and 4 bits for those in the corners that the splat does not touch (tile/corners.glsl).
-// Rects that would reach beyond all places mean other things: from RECT_CHUNK on, drawn by the graphics pipeline, of the chunk in
-// the last bits; all ones, not seen.
+// The largest small rect never leaves out all of its corners: what would be one that does means other things, from RECT_CHUNK on drawn by the
+// graphics pipeline, of the chunk in the last bits; all ones, not seen.
 
 layout(constant_id = SPEC_PLACE_BITS) const uint PLACE_BITS = 11;
 const uint MORE_BITS = RECT_SIDE_BITS - PLACE_BITS;
@@ -17,6 +17,7 @@ const uint RECT_NONE = 0xffffffffu;
 uint rect_from(uvec2 first, uvec2 more, uint outside)
 {
     bool small = max(more.x, more.y) <= MOST_MORE_OF_SMALL;
+    outside &= min(more.x, more.y) == MOST_MORE_OF_SMALL ? 14 : 15;
     uint size = small ? SMALL | outside << (2 * SMALL_BITS) | more.x << SMALL_BITS | more.y : more.x << MORE_BITS | more.y;
     return first.x | first.y << PLACE_BITS | size << (2 * PLACE_BITS);
 }

@@ -24,10 +24,11 @@ pub struct SizeBound {
 }
 
 /// Radius over the nearest depth, up to which all splats are known to be regular.
-const LARGEST_RADIUS_RATIO: f64 = 0.45;
+const LARGEST_RADIUS_RATIO: f64 = 2.0;
 
-/// Whether every splat is regular as `glsl/inc/mapping.glsl` has it: wholly beyond the near plane, and its depth radius at
-/// most 0.9 of its center's depth. Half of that is asked for, so that rounding does not matter; of the near plane, the nearest
+/// Whether every splat is regular as `glsl/inc/mapping.glsl` has it: wholly beyond the near plane, and its depth radius d at
+/// most 0.9 of its center's depth p. Its nearest point is p − d deep, at least the nearest depth z, so that d ≤ r ≤ 2 z ≤ 2 (p − d) is
+/// d ≤ 2/3 p, and rounding does not matter; of the near plane, the nearest
 /// depth has a reserve for it. Under parallel rays how deep it is does not matter.
 fn all_regular(bound: &SizeBound) -> bool {
     bound.nearest_z > bound.near
@@ -43,7 +44,7 @@ fn all_regular(bound: &SizeBound) -> bool {
 /// singular value of the two. A filter adds its covariance, or less: of half an axis l it makes √(l² + h²) at the center's depth p (1%
 /// more here), h of which is up to `p / z ≤ 1 + r/z` as much where the disk is nearest, at z. (`adjust-paper` lengthens each vector by
 /// itself, two to h in any directions, which together reach √2 h: that is its h here. `max` adds its own disk about the center: of the
-/// splat's ends a and b from there, max(a, h) + max(b, h) ≤ √((a + b)² + 4 h²) where a ≤ 6 b, as of all that is regular by the half.)
+/// splat's ends a and b from there, max(a, h) + max(b, h) ≤ √((a + b)² + 4 h²) where a ≤ 6 b, as of all with d ≤ 2/3 p: a ≤ 5 b.)
 /// Three pixels for rounding. Under parallel rays, x is X, and all of that is without depths.
 pub fn largest_box_px(bound: &SizeBound) -> f64 {
     box_px(bound, bound.largest_radius)
@@ -162,8 +163,8 @@ mod tests {
             let z = between(0.5, 4.0);
             let center = DVec3::new(between(-0.4, 0.4) * z, between(-0.4, 0.4) * z, z);
             let normal = DVec3::new(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)).normalize();
-            // From a thousandth of a pixel to 300.
-            let radius = z / focal_px * 10.0_f64.powf(between(-3.0, 2.2));
+            // From a thousandth of a pixel to what is as deep as may be bounded.
+            let radius = z / focal_px * 10.0_f64.powf(between(-3.0, 2.52));
             let s = radius * normal.any_orthonormal_vector();
             let t = between(0.01, 1.0) * normal.cross(s);
             let h = std::f64::consts::SQRT_2 / focal_px;
@@ -172,6 +173,7 @@ mod tests {
             let image = rim.map(|p| p.truncate() / p.z * focal_px);
             let first = [DVec2::INFINITY, DVec2::NEG_INFINITY];
             let [lo, hi] = image.fold(first, |[lo, hi], x| [lo.min(x), hi.max(x)]);
+            let [lo, hi] = [lo, hi].map(|x| x.clamp(DVec2::splat(-240.0), DVec2::splat(240.0)));
             let bound = SizeBound {
                 nearest_z: z - radius,
                 largest_radius: radius,
@@ -184,6 +186,7 @@ mod tests {
             };
             // Three pixels of the bound are for rounding.
             let most_px = box_px(&bound, radius) - 3.0;
+            assert!(most_px.is_infinite() || s.z.hypot(t.z) < 0.7 * z, "{round}: regular to 0.9 of {z}");
             let span_px = (hi - lo).max_element();
             assert!(span_px <= most_px, "{round}: {span_px} px, at most {most_px}");
             // Of the filter's own width, and of large ones, which slant.

@@ -53,8 +53,17 @@ impl Kept {
     }
 }
 
+/// How far the surface around a splat is taken to go on, in its larger radii.
+const SURFACE_RADII: f64 = 2.0;
+
 /// How near to nothing, as a part of a ramp, what is left is undecided.
 const UNDECIDED: f64 = 0.01;
+
+/// How far off a place may be that is found in f32, in radii of the filter: ten roundings of 256 pixels.
+const ROUNDED: f64 = 1e-4;
+
+/// What is left of a pixel is undecided, too, where it changes by so much over twice that: along what is seen nearly edge-on.
+const UNCERTAIN_PART: f64 = 5e-4;
 
 impl DrawnClip {
     /// `None` of what is not clipped. The tangent vectors are those that no filter has changed. `h`: the radius of the filter, where edges
@@ -67,8 +76,11 @@ impl DrawnClip {
         filtered: bool,
     ) -> Option<Self> {
         let ramp = |h: f64| {
-            // Of two Gaussians in turn, the kernel's image and the filter: where the first was, given their sum.
-            let (a, b) = (projected(center, s), projected(center, t));
+            // Of two Gaussians in turn, the image of the surface around and the filter: where the first was, given their sum.
+            let longer = if s.length() > t.length() { s } else { t };
+            let turned = s.cross(t).normalize().cross(longer);
+            let (a, b) =
+                (projected(center, SURFACE_RADII * longer), projected(center, SURFACE_RADII * turned));
             let image = DMat2::from_cols(a.x * a + b.x * b, a.y * a + b.y * b);
             let sum = image + DMat2::from_diagonal(DVec2::splat(h * h));
             Ramp { h, through: if filtered { image * sum.inverse() } else { DMat2::IDENTITY } }
@@ -152,8 +164,12 @@ impl DrawnClip {
         if let Some(ramp) = &self.ramp {
             let near =
                 |curve| self.kept_by(ramp, &Curve::of(curve), ray.truncate()).1.abs() < UNDECIDED + margin;
+            let kept_at =
+                |moved: DVec2| self.kept((ray.truncate() + ROUNDED * ramp.h * moved).extend(1.0)).part;
+            let is_steep = |along: DVec2| (kept_at(along) - kept_at(-along)).abs() > UNCERTAIN_PART;
             return match self.kept(ray).part {
                 _ if self.clip.curves().into_iter().flatten().any(near) => Clipped::Undecided,
+                _ if is_steep(DVec2::X) || is_steep(DVec2::Y) => Clipped::Undecided,
                 part if part > 0.0 => Clipped::Kept,
                 _ => Clipped::Removed,
             };

@@ -77,6 +77,16 @@ pub(super) fn evened(splats: &Splats, overlaps: Vec<f64>) -> Vec<f64> {
     vec![mean; overlaps.len()]
 }
 
+/// How much more than by their overlap splats that curves end, and those beside them, weigh by the cosine between normal and ray: the sums of flat
+/// sides fall toward ridges, where the curves tell what is covered. Not where the surface ends by turning away.
+pub(super) fn sum_of_sharp(splats: &Splats, cosine: f64) -> f64 {
+    if splats.clips.is_empty() {
+        return 1.0;
+    }
+    let x = ((cosine.abs() - 0.3) / 0.3).clamp(0.0, 1.0);
+    1.0 + 0.7 * x * x * (3.0 - 2.0 * x)
+}
+
 fn all_along_x(splats: &Splats) -> Vec<Among> {
     let drawn = (0..splats.len()).filter(|&i| splats.defect(i).is_none());
     let mut all: Vec<Among> = drawn

@@ -12,7 +12,7 @@ use super::ewa::Stretched;
 use super::filter::{adjust, area_share, lengthened, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
-use super::overlap::{evened, overlaps};
+use super::overlap::{evened, overlaps, sum_of_sharp};
 use super::paper_filter::adjust_paper;
 use super::surface::Attributes;
 use super::tangents::tangents;
@@ -229,6 +229,7 @@ fn prepare_one(
         Map::Affine(ellipse) => ellipse.lengths[1],
         Map::Stretched(stretched) => stretched.ellipse.lengths[1],
     };
+    let overlap = overlap.map(|overlap| overlap / sum_of_sharp(splats, outward.dot(center.normalize())));
     let image_size = map.size([projected(center, s), projected(center, t)]);
     let low_pass = (in_front && settings.filter == Filter::Max).then(|| LowPass {
         center: center.truncate() / center.z,

@@ -179,8 +179,8 @@ fn a_part_becomes_few_splats_with_sharp_edges() {
     let wide = rows[rows.len() / 2];
     let (high, all) = (rows.iter().filter(|row| **row >= wide).count(), rows.iter().sum::<usize>());
     assert!(high > 6 && 10 * all < 11 * wide * high, "{rows:?}");
-    // Splats as large as that are the graphics pipeline's, whose edges are hard, which is told.
-    for (size, is_hard) in [("64x64", false), ("900x900", true)] {
+    // Splats as large as the picture have edges that cover pixels in part. In a huge one they are the graphics pipeline's, whose edges are hard, which is told.
+    for (size, is_hard) in [("64x64", false), ("900x900", false), ("2200x2200", true)] {
         let told =
             surfel(&folder, &["render", "a.ply", "-o", "c.png", "--size", size, "--ortho", "--explain"]);
         assert_eq!(

@@ -40,7 +40,7 @@ use crate::{
     inline_vec::InlineVec,
     prepare::Placed,
     scene::{Accumulate, Camera, Edges, MOST_PLANES, Rasterizer, Settings, Transition},
-    shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_TWO_SIDED},
+    shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_SHARP, SPEC_TWO_SIDED},
     vk::Limits,
 };
 
@@ -286,6 +286,9 @@ const NOT_IN_PART: &str = "edges are hard, since some splats are too large, or t
 /// A chunk of splats whose surface covers pixels in part where it ends.
 fn with_edges(mut draw: Draw<'_>, two_sided: bool) -> Draw<'_> {
     draw.variant.push((SPEC_COVERAGE_EDGES, 1));
+    if draw.chunk.is_sharp {
+        draw.variant.push((SPEC_SHARP, 1));
+    }
     if two_sided {
         draw.variant.push((SPEC_TWO_SIDED, 1));
         // Surfaces are of one side: how near the other one is does not matter. Of sharp ones it is not that alone.

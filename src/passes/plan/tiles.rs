@@ -1,5 +1,6 @@
 //! What is decided on the host about drawing splats by tiles: how records are cut into segments, how much room lists have.
 
+mod image_tiles;
 pub(crate) mod rows;
 mod walks;
 
@@ -7,14 +8,15 @@ use std::ops::Range;
 
 use crate::passes::plan::invocations::Invocations;
 use crate::passes::plan::tiles::{
+    image_tiles::ImageTiles,
     rows::tile_rows,
     walks::{MOST_ITERATIONS, pieces_of, round_length, segments_of},
 };
-use crate::{math::size::pixels_along, shaders::config::*, vk::Limits};
+use crate::{shaders::config::*, vk::Limits};
 
 /// Bits of a tile's column or row in a tile rect at least; what is left of [`RECT_SIDE_BITS`] is for how many tiles a splat touches
-/// along a side. As few are taken as have room for the image.
-const LEAST_PLACE_BITS: u32 = 10;
+/// along a side. As few are taken as have room for the image: of up to 1536 pixels along a side, every splat has room.
+const LEAST_PLACE_BITS: u32 = 8;
 
 /// Chunks that tile rects can tell apart.
 const MOST_CHUNKS: u32 = u32::MAX - RECT_CHUNK;
@@ -30,21 +32,14 @@ const LEAST_ENTRIES: u64 = 8 << 20;
 const ENTRIES_A_SPLAT: u64 = 16;
 const ENTRIES_A_PIXEL: u64 = 4;
 
-/// Walks over all segments, one after the other, unless splats touch [`MOST_OF_MANY`] tiles at most.
+/// Walks over all segments, one after the other, unless splats touch [`MOST_OF_MANY`] tiles at most; and where no splat is left to the graphics
+/// pipeline then, so that all can cover pixels in part.
 const MOST_ROUNDS: u32 = 16;
+const MOST_ROUNDS_OF_ALL: u32 = 64;
 const MOST_OF_MANY: u64 = 64;
 
 /// The bytes of a quarter of a record, each quarter in a buffer of its own.
 pub(crate) const RECORD_BYTES: u64 = 16;
-
-/// Tiles that a box of so many pixels touches at most: along a side one more for each tile's pixels beyond the first.
-fn tiles_of(box_px: f64, invocations: Invocations) -> u64 {
-    let along = |side: u32| {
-        let side = f64::from(side);
-        ((pixels_along(box_px) + side - 2.0) / side).floor() + 1.0
-    };
-    (along(TILE_WIDTH) * along(invocations.tile_height())) as u64 // of what has no bound, the largest number
-}
 
 /// This number or one that is less by a third at most. A pipeline is told it: were it any, a camera that moves would have pipelines without
 /// end.
@@ -125,7 +120,7 @@ impl TilePlan {
     /// Bytes of one splat's record and entries, whose box has so many pixels.
     pub(crate) fn bytes_of_one(&self, box_px: f64) -> u64 {
         let of_clips = if self.clips { u64::from(CLIP_VECTORS) * RECORD_BYTES } else { 0 };
-        bytes_of_records(1) + of_clips + 4 * tiles_of(box_px, self.invocations).min(self.most_tiles.into())
+        bytes_of_records(1) + of_clips + 4 * self.image_tiles().of(box_px).min(self.most_tiles.into())
     }
 
     /// Bytes of the clip curves of records.
@@ -158,7 +153,7 @@ impl TilePlan {
         if refused {
             return None;
         }
-        let has_places = |bits: &u32| tiles_x.max(tiles_y) <= (1 << bits) - most_tiles_a_side(*bits);
+        let has_places = |bits: &u32| tiles_x.max(tiles_y) <= 1 << bits;
         let place_bits = (LEAST_PLACE_BITS..=MOST_PLACE_BITS).find(has_places)?;
         let most_a_side = most_tiles_a_side(place_bits);
         let record_count = u32::try_from(records).ok()?;
@@ -169,20 +164,25 @@ impl TilePlan {
         let room =
             (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).max(of_pixels).min(range / 4).min(most_texels);
         // Rounds are as long as if each of their records had the most; there must not be too many.
-        let in_rounds = u64::from(MOST_ROUNDS * MOST_ITERATIONS / segment_length).max(MOST_OF_MANY);
-        let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds);
+        let in_rounds = |rounds: u32| u64::from(rounds * MOST_ITERATIONS / segment_length).max(MOST_OF_MANY);
         // A splat that is left to the graphics pipeline has an entry, too.
+        let tiles = ImageTiles { along: [tiles_x, tiles_y], invocations };
         let entries = |most: u64| -> u64 {
-            boxes.clone().map(|(count, px)| u64::from(count) * tiles_of(px, invocations).min(most)).sum()
+            boxes.clone().map(|(count, px)| u64::from(count) * tiles.of(px).min(most)).sum()
         };
         let largest = boxes.clone().map(|(_, px)| px).fold(0.0, f64::max);
+        let of_largest = tiles.of(largest);
+        // What has no bound may come near the eye.
+        let has_rect =
+            largest.is_finite() && tiles.along(largest).iter().all(|a_side| *a_side <= most_a_side.into());
+        let fits = has_rect && of_largest <= in_rounds(MOST_ROUNDS_OF_ALL) && entries(of_largest) <= room;
+        let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds(MOST_ROUNDS));
         // As many as there is room for if all have them; or as they have, where there is room for all.
-        let most_tiles =
-            if entries(most_of_all) <= room { tiles_of(largest, invocations) } else { room / records };
-        let most_tiles = most_tiles.min(most_of_all);
-        let longest = f64::from((most_a_side - 1) * invocations.tile_height().min(TILE_WIDTH));
-        let fits = largest <= longest && tiles_of(largest, invocations) <= most_tiles;
-        let most_tiles = if fits { most_tiles } else { one_of_few(most_tiles) };
+        let most_tiles = match fits {
+            true => of_largest,
+            false if entries(most_of_all) <= room => one_of_few(most_of_all.min(of_largest)),
+            false => one_of_few(most_of_all.min(room / records)),
+        };
         let entry_room = entries(most_tiles);
         let most_tiles = most_tiles as u32;
         let walk_length = TILE_BATCH * MOST_ITERATIONS / 2;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use ash::vk;
 
-use crate::passes::plan::tiles::{TilePlan, walks::round_length};
+use crate::passes::plan::tiles::{TilePlan, image_tiles::ImageTiles, walks::round_length};
 use crate::{
     passes::plan::{
         draws::Draw,
@@ -124,6 +124,12 @@ impl TilePlan {
             overflows_somewhere: bands.iter().any(Self::may_overflow),
             ..self.clone()
         }
+    }
+
+    /// The tiles of its rows.
+    pub(super) fn image_tiles(&self) -> ImageTiles {
+        let rows = tile_rows(self.rows.end - self.rows.start, self.invocations);
+        ImageTiles { along: [self.tiles_x, rows], invocations: self.invocations }
     }
 
     /// Its rows as pixels of an image.

@@ -73,27 +73,37 @@ fn no_run_of_pixels_touches_more_tiles_than_its_box_says() {
             |side: u32| u64::from((0..side).map(|first| (first + pixels - 1) / side + 1).max().unwrap());
         for box_px in [f64::from(pixels) + 1.5, f64::from(pixels) + 2.4] {
             for (invocations, most) in HEIGHTS.into_iter().zip([along(8) * along(8), along(8) * along(4)]) {
-                assert_eq!(tiles_of(box_px, invocations), most, "{pixels} {box_px}");
+                let in_image = |along| ImageTiles { along, invocations }.of(box_px);
+                assert_eq!(in_image([1000; 2]), most, "{pixels} {box_px}");
+                assert!(in_image([3, 1000]) <= most && in_image([3, 2]) <= 6, "{pixels} {box_px}");
             }
         }
     }
-    assert_eq!(tiles_of(f64::INFINITY, Invocations::ShortColumns), u64::MAX);
+    let image = ImageTiles { along: [5, 7], invocations: Invocations::ShortColumns };
+    assert_eq!(image.of(f64::INFINITY), 35);
 }
 
 #[test]
 fn spans_have_bits_for_every_place_of_the_image_and_for_splats_as_large_as_that_leaves() {
     for (side_px, a_side) in
-        [(7808, 48), (7809, 24), (16_192, 24), (16_193, 12), (32_672, 12), (32_673, 6), (65_488, 6)]
+        [(2048, 192), (2049, 96), (4096, 96), (4097, 48), (8193, 24), (16_385, 12), (32_769, 6), (65_536, 6)]
     {
         let plan = |px| plan(&[(10, px)], [side_px, 100]).unwrap();
-        let largest = f64::from(8 * (a_side - 1));
+        let largest = f64::from(8 * a_side - 5);
         assert!(!plan(largest).may_be_large && plan(largest + 1.0).may_be_large, "{side_px}");
     }
     // Of tiles half as high, twice as many lie above each other.
-    for (height_px, a_side) in [(3904, 48), (3905, 24), (32_744, 6)] {
+    for (height_px, a_side) in [(1024, 192), (1025, 96), (2049, 48), (4097, 24), (16_385, 6), (32_768, 6)] {
         let plan = |px| plan_of(&[(10, px)], [100, height_px], Invocations::ShortColumns).unwrap();
-        let largest = f64::from(4 * (a_side - 1));
+        let largest = f64::from(4 * a_side - 1);
         assert!(!plan(largest).may_be_large && plan(largest + 1.0).may_be_large, "{height_px}");
+    }
+    // Of all of an image there are no more.
+    for (size_px, invocations) in
+        [([1536, 1536], Invocations::Columns), ([1536, 768], Invocations::ShortColumns)]
+    {
+        let plan = |px| plan_of(&[(10, px)], size_px, invocations).unwrap();
+        assert!(!plan(1e9).may_be_large && plan(f64::INFINITY).may_be_large, "{size_px:?}");
     }
 }
 
@@ -160,10 +170,11 @@ fn bands_agree_on_what_they_have_in_common() {
             assert!(of.round_length * of.most_tiles <= MOST_ITERATIONS && of.round_length > 0, "{of:?}");
             assert!(of.segments * of.segment_length >= of.record_count, "{of:?}");
             let entries = |(count, px): &(u32, f64)| {
-                u64::from(*count) * tiles_of(*px, of.invocations).min(of.most_tiles.into())
+                u64::from(*count) * of.image_tiles().of(*px).min(of.most_tiles.into())
             };
             assert!(boxes.iter().map(entries).sum::<u64>() <= of.entry_room, "{of:?}");
-            let all_fit = boxes.iter().all(|(_, px)| tiles_of(*px, of.invocations) <= of.most_tiles.into());
+            let fits = |px: f64| px.is_finite() && of.image_tiles().of(px) <= of.most_tiles.into();
+            let all_fit = boxes.iter().all(|(_, px)| fits(*px));
             assert!(all_fit || of.may_be_large, "{of:?}");
         }
     }
@@ -179,8 +190,8 @@ fn views_have_few_pipelines_between_them() {
             told.insert((plan.may_be_large, plan.told_most_tiles()));
         }
     }
-    // Two a power of two, up to 48 by 48, and one.
-    assert!(told.len() <= 24, "{told:?}");
+    // Two a power of two, up to 128 by 128, and one.
+    assert!(told.len() <= 28, "{told:?}");
     assert_eq!(
         [1, 2, 3, 4, 5, 7, 8, 95, 96, 127, 2304].map(one_of_few),
         [1, 2, 3, 4, 4, 6, 8, 64, 96, 96, 2048]
