@@ -7,7 +7,7 @@ use surfel::{
     Error, Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Budget, CropView, Epsilon, Settings, Storage},
+    scene::{Ball, Budget, CameraPath, CropView, Epsilon, Settings, Storage},
 };
 
 use crate::{
@@ -111,9 +111,10 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
         refuse_beside_a_film(arguments)?;
         let output = film::Output::of(&arguments.picture, &arguments.film)?;
         let headless = arguments.device.open()?;
+        let path = film::path(&arguments.film)?;
         return arguments.device.watch(headless, |headless| {
             headless.renderer.check_settings(&part.settings)?;
-            draw_film(headless, arguments, &part, &camera, &output)
+            draw_film(headless, arguments, &part, (&camera, path.as_ref()), &output)
         });
     }
     if arguments.film.fps.is_some() {
@@ -224,12 +225,13 @@ fn draw_film(
     headless: &mut Headless,
     arguments: &RenderArguments,
     part: &Drawn,
-    camera: &CameraChoice,
+    (camera, path): (&CameraChoice, Option<&CameraPath>),
     output: &film::Output,
 ) -> Result<()> {
     let bars = Bars::new();
     let (loaded, settings) = load(headless, arguments, part, &bars)?;
-    let shots = film::shots(&arguments.film, arguments.frames, || camera.camera(&loaded, part.whole_px))?;
+    let base = || camera.camera(&loaded, part.whole_px);
+    let shots = film::shots(&arguments.film, path, arguments.frames, base)?;
     if arguments.picture.print_camera {
         shots.iter().try_for_each(|camera| console::print(&camera::words(camera)))?;
     }
