@@ -17,7 +17,7 @@ use std::path::Path;
 
 pub use from_mesh::resampled;
 pub use memory::check_memory;
-pub use object::{BuiltObject, make, make_loaded};
+pub use object::{BuiltObject, make, make_loaded, refuse_triangles};
 pub use sharp::sharpened;
 pub use words::{finish, splats_kind};
 

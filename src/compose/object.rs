@@ -146,7 +146,10 @@ fn splats_of(model: BuiltIn, splats: u64) -> Model {
 }
 
 /// Refuses what needs triangles for a file of `what`.
-fn refuse_triangles(object: &ObjectDescription, what: &str) -> Result<()> {
+///
+/// # Errors
+/// [`ErrorKind::Input`] for an object that should be drawn as triangles or sampled anew.
+pub fn refuse_triangles(object: &ObjectDescription, what: &str) -> Result<()> {
     let purpose = match (object.representation, object.samples) {
         (Representation::Splats | Representation::Auto, None) => "",
         (Representation::Splats | Representation::Auto, Some(_)) => "to take samples of its triangles",
@@ -156,7 +159,7 @@ fn refuse_triangles(object: &ObjectDescription, what: &str) -> Result<()> {
         "" => Ok(()),
         _ => {
             let problem = format!("the file holds {what}; expected a mesh, {purpose}");
-            Err(Error::input("", "", problem))
+            Err(of_object(Error::input("", "", problem), object))
         }
     }
 }

@@ -32,6 +32,7 @@ mod selftest;
 mod shown;
 mod told;
 
+mod unused;
 use std::fs;
 
 use files::{exr, png};

@@ -32,6 +32,7 @@ use crate::{
     scene_file_keys::KEYS,
     settings::{Given, Taken},
     steps::Steps,
+    unused,
 };
 
 const EXAMPLES: &str = "Examples:
@@ -110,8 +111,8 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     if arguments.film.is_given() {
         refuse_beside_a_film(arguments)?;
         let output = film::Output::of(&arguments.picture, &arguments.film)?;
-        let headless = arguments.device.open()?;
         let path = film::path(&arguments.film)?;
+        let headless = arguments.device.open()?;
         return arguments.device.watch(headless, |headless| {
             headless.renderer.check_settings(&part.settings)?;
             draw_film(headless, arguments, &part, (&camera, path.as_ref()), &output)
@@ -204,7 +205,10 @@ fn load(
     bars: &Bars,
 ) -> Result<(Loaded, Settings)> {
     let picture = &arguments.picture;
-    let mut loaded = load_scene_by_view(&picture.input.inputs(), bars)?;
+    let inputs = picture.input.inputs();
+    let mut loaded = load_scene_by_view(&inputs, bars)?;
+    let memory = arguments.hierarchies.budget_memory.map(|_| "budget-memory");
+    unused::tell(picture.said().chain(arguments.storage.said()).chain(memory), &inputs, &loaded);
     oddities::tell(&loaded.scene, &loaded.ball);
     origin::tell(&loaded.scene, &loaded.ball);
     picture.light(&mut loaded.scene);

@@ -22,7 +22,7 @@ use crate::{
     console::{Bars, Repeated},
     inputs::Inputs,
     octrees::Octrees,
-    oddities, up,
+    oddities, unused, up,
 };
 
 /// A scene with its extent and where it came from.
@@ -216,7 +216,7 @@ fn describe(inputs: &Inputs, bars: &Bars) -> Result<Described> {
     if let (Some(file), [first, others @ ..]) =
         (inputs.files.iter().find(|file| is_scene_file(file)), &inputs.not_for_scene_files[..])
     {
-        let options = others.iter().fold((*first).to_owned(), |all, other| format!("{all} and {other}"));
+        let options = unused::joined(options);
         bars.note(&format!(
             "{}: without {options}, as the keys of its objects say how they are drawn",
             file_name(file)
