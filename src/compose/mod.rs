@@ -3,6 +3,7 @@
 //!
 //! Meshes are placed before they become splats, so that the splats are round and leave no hole where they are drawn.
 
+mod beyond;
 mod facts;
 mod from_mesh;
 mod from_points;
