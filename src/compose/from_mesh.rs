@@ -11,10 +11,11 @@ use super::{
 use crate::{
     error::{Error, Result},
     geometry::{
-        self, DEFAULT_OVERLAP, Hybrid, HybridOptions, MeshReport, Multiresolution, Suited, creased_mesh,
-        fitting_splats, splats_from_mesh,
+        self, DEFAULT_OVERLAP, Hybrid, HybridOptions, MeshReport, Multiresolution, REPEATED, Suited,
+        creased_mesh, drop_repeated, fitting_splats,
     },
     load::{ObjectDescription, Representation, Samples},
+    notes::{Deed, Note},
     progress::Progress,
     report::InputReport,
     scene::{Mesh, MeshObject, Object, Opacity, Splats},
@@ -22,11 +23,13 @@ use crate::{
 
 /// The parts of a mesh that are drawn; it is given in its own coordinates. Errors know no file.
 pub(super) fn parts(
-    own: Mesh,
+    mut own: Mesh,
     name: String,
     object: &ObjectDescription,
     work: &mut StepTimer<'_>,
 ) -> Result<Parts> {
+    let repeated = Note::of(Deed::Dropped, drop_repeated(&mut own.triangles), REPEATED);
+    repeated.iter().for_each(|note| work.progress.note(&format!("{name}: {note}")));
     let placed = |own: Mesh| {
         let mut mesh = own.transformed(&object.world_from_object);
         mesh.colors.tint(object.color, object.alpha);
@@ -34,11 +37,9 @@ pub(super) fn parts(
     };
     let chosen = object.representation == Representation::Auto && object.samples.is_none();
     let parts = match (object.representation, object.samples) {
-        (Representation::Splats, None) => {
-            Ok(splats(work.time(format!("normals and radii of {name}"), |progress| {
-                splats_at_vertices(&placed(own), name, progress)
-            })))
-        }
+        (Representation::Splats, None) => Ok(work.time(format!("normals and radii of {name}"), |progress| {
+            splats_at_vertices(&placed(own), name, progress)
+        })),
         (Representation::Auto, None) => best(placed(own), name, work),
         (Representation::Splats | Representation::Auto, Some(samples)) => work
             .time(format!("resample {name}"), |progress| resampled(&placed(own), name, samples, progress))
@@ -66,7 +67,9 @@ pub(super) fn parts(
             })
         }
     };
-    parts.map(|parts| if chosen { parts } else { because(parts, ASKED_FOR.to_owned()) })
+    let mut parts = parts?;
+    parts.report.notes.splice(0..0, repeated);
+    Ok(if chosen { parts } else { because(parts, ASKED_FOR.to_owned()) })
 }
 
 fn because(mut parts: Parts, because: String) -> Parts {
@@ -75,7 +78,7 @@ fn because(mut parts: Parts, because: String) -> Parts {
 }
 
 fn splats((object, report): (Object, InputReport)) -> Parts {
-    Parts { splats: Some(object), triangles: None, levels: None, report }
+    Parts::of_splats(object, report)
 }
 
 /// What shows it best.
@@ -108,8 +111,9 @@ fn best(mesh: Mesh, name: String, work: &mut StepTimer<'_>) -> Result<Parts> {
     }
 }
 
-fn splats_at_vertices(mesh: &Mesh, name: String, progress: &dyn Progress) -> (Object, InputReport) {
-    at_vertices(mesh, name, splats_from_mesh(mesh, DEFAULT_OVERLAP, progress))
+fn splats_at_vertices(mesh: &Mesh, name: String, progress: &dyn Progress) -> Parts {
+    let (made, report, fitness) = fitting_splats(mesh, DEFAULT_OVERLAP, progress);
+    Parts { fitness: Some(fitness), ..splats(at_vertices(mesh, name, (made, report))) }
 }
 
 fn at_vertices(mesh: &Mesh, name: String, (splats, report): (Splats, MeshReport)) -> (Object, InputReport) {
@@ -148,7 +152,7 @@ fn triangles(mesh: Mesh, name: String, why: &str) -> Parts {
     let head = format!("{}; {}", mesh_head(counts, &report), normals_computed(&report, counts[0]));
     let object = MeshObject { name, mesh, closed: report.closed };
     let report = with_notes(finish_triangles(&object, &head, counts, why), counts[0], &report);
-    Parts { splats: None, triangles: Some(object), levels: None, report }
+    Parts { splats: None, triangles: Some(object), levels: None, fitness: None, report }
 }
 
 fn both(
@@ -171,6 +175,7 @@ fn both(
         splats: (!object.splats.is_empty()).then_some(object),
         triangles: (!triangles.mesh.triangles.is_empty()).then_some(triangles),
         levels: None,
+        fitness: None,
         report,
     })
 }
@@ -192,7 +197,7 @@ fn in_levels(mesh: Mesh, name: String, options: &HybridOptions, progress: &dyn P
         InputReport { splats, ..finish_triangles(&object, &head, counts, " or splats, as the view has it") };
     let mut report = with_notes(told, counts[0], &report.mesh);
     report.drawn_as = "splats and triangles";
-    Ok(Parts { splats: None, triangles: Some(object), levels: Some(levels), report })
+    Ok(Parts { splats: None, triangles: Some(object), levels: Some(levels), fitness: None, report })
 }
 
 /// Vertices and triangles.

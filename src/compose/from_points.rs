@@ -32,6 +32,6 @@ pub(super) fn parts(
         let (object, mut told) = finish(Object { name, splats, closed }, report.to_string(), None);
         told.notes = [report.notes(), told.notes].concat();
         told.because = "points become disks that close their surface".to_owned();
-        Parts { splats: Some(object), triangles: None, levels: None, report: told }
+        Parts::of_splats(object, told)
     }))
 }

@@ -3,6 +3,7 @@
 //!
 //! Meshes are placed before they become splats, so that the splats are round and leave no hole where they are drawn.
 
+mod beyond;
 mod facts;
 mod from_mesh;
 mod from_points;
@@ -17,7 +18,7 @@ use std::path::Path;
 
 pub use from_mesh::resampled;
 pub use memory::check_memory;
-pub use object::{BuiltObject, make, make_loaded};
+pub use object::{BuiltObject, make, make_loaded, refuse_triangles};
 pub use sharp::sharpened;
 pub use words::{finish, splats_kind};
 

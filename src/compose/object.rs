@@ -3,12 +3,13 @@
 use glam::DVec3;
 
 use super::{
-    facts, from_mesh, from_points,
+    beyond, facts, from_mesh, from_points,
     parts::{Parts, StepTimer},
     words::finish_splats,
 };
 use crate::{
     error::{Error, ErrorKind, Result},
+    geometry::Fitness,
     load::{
         BuiltIn, LoadOptions, Loaded, Model, ObjectDescription, Representation, Source,
         builtin::{checkerboard, relief, sphere, sphere_mesh},
@@ -31,6 +32,8 @@ pub struct BuiltObject {
     pub levels: Option<HybridLevels>,
     /// The direction that is up in the world, where its file or the file's format tells one; unit.
     pub up: Option<DVec3>,
+    /// How well disks at the vertices of a mesh show it, where it has those.
+    pub fitness: Option<Fitness>,
     /// All parts in numbers and words.
     pub report: InputReport,
     /// How long each step took.
@@ -66,7 +69,10 @@ pub fn make_loaded(
 }
 
 fn make_opened(opened: Opened, object: &ObjectDescription, mut work: StepTimer<'_>) -> Result<BuiltObject> {
-    let Opened { model, name, notes, file } = opened;
+    let Opened { mut model, name, mut notes, file } = opened;
+    let beyond = beyond::lose(&mut model);
+    beyond.iter().for_each(|note| work.progress.note(&format!("{name}: {note}")));
+    notes.extend(beyond);
     let up = file.as_ref().and_then(|file| file.up).map(DVec3::from_array);
     let parts = match model {
         Model::Splats { splats, closed } => place_splats(Object { name, splats, closed }, object),
@@ -74,7 +80,8 @@ fn make_opened(opened: Opened, object: &ObjectDescription, mut work: StepTimer<'
             .and_then(|()| from_points::parts(points, name, object, &mut work)),
         Model::Mesh(mesh) => from_mesh::parts(mesh, name, object, &mut work),
     };
-    let Parts { splats, triangles, levels, mut report } = parts.map_err(|error| of_object(error, object))?;
+    let Parts { splats, triangles, levels, fitness, mut report } =
+        parts.map_err(|error| of_object(error, object))?;
     let nothing =
         report.splats == 0 && triangles.as_ref().is_none_or(|object| object.mesh.triangles.is_empty());
     if nothing {
@@ -88,7 +95,7 @@ fn make_opened(opened: Opened, object: &ObjectDescription, mut work: StepTimer<'
     }
     report.model = file;
     let up = up.and_then(|up| object.world_from_object.transform_vector3(up).try_normalize());
-    Ok(BuiltObject { splats, triangles, levels, up, report, steps: work.steps })
+    Ok(BuiltObject { splats, triangles, levels, up, fitness, report, steps: work.steps })
 }
 
 /// A model as it is before it is placed.
@@ -146,7 +153,10 @@ fn splats_of(model: BuiltIn, splats: u64) -> Model {
 }
 
 /// Refuses what needs triangles for a file of `what`.
-fn refuse_triangles(object: &ObjectDescription, what: &str) -> Result<()> {
+///
+/// # Errors
+/// [`ErrorKind::Input`] for an object that should be drawn as triangles or sampled anew.
+pub fn refuse_triangles(object: &ObjectDescription, what: &str) -> Result<()> {
     let purpose = match (object.representation, object.samples) {
         (Representation::Splats | Representation::Auto, None) => "",
         (Representation::Splats | Representation::Auto, Some(_)) => "to take samples of its triangles",
@@ -156,7 +166,7 @@ fn refuse_triangles(object: &ObjectDescription, what: &str) -> Result<()> {
         "" => Ok(()),
         _ => {
             let problem = format!("the file holds {what}; expected a mesh, {purpose}");
-            Err(Error::input("", "", problem))
+            Err(of_object(Error::input("", "", problem), object))
         }
     }
 }
@@ -168,7 +178,7 @@ fn place_splats(mut splats: Object, object: &ObjectDescription) -> Result<Parts>
     splats.splats = splats.splats.transformed(&object.world_from_object);
     splats.splats.colors.tint(object.color, object.alpha);
     let (splats, report) = finish_splats(splats, String::new(), None, defects);
-    Ok(Parts { splats: Some(splats), triangles: None, levels: None, report })
+    Ok(Parts::of_splats(splats, report))
 }
 
 /// An error of an object's model, in the name of its file: what makes splats of it knows none.

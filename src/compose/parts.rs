@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use crate::{
+    geometry::Fitness,
     progress::Progress,
     report::{InputReport, Step},
     scene::{HybridLevels, MeshObject, Object},
@@ -14,7 +15,16 @@ pub(super) struct Parts {
     pub triangles: Option<MeshObject>,
     /// Of the triangles.
     pub levels: Option<HybridLevels>,
+    /// Of disks at the vertices of a mesh.
+    pub fitness: Option<Fitness>,
     pub report: InputReport,
+}
+
+impl Parts {
+    /// Splats alone.
+    pub fn of_splats(splats: Object, report: InputReport) -> Self {
+        Self { splats: Some(splats), triangles: None, levels: None, fitness: None, report }
+    }
 }
 
 /// Long work, with its times.

@@ -33,8 +33,9 @@ const FEW: f64 = 1e-3;
 
 /// `size`: the diagonal of the box around it. `asked`: the splats that were asked for, where there are more.
 fn head([vertices, triangles]: [usize; 2], made: &SharpReport, size: f64, asked: Option<u64>) -> String {
+    let repairs: String = made.repairs.notes().iter().map(|note| format!(", {note}")).collect();
     let mut head = format!(
-        "{}, {}: {}; {} in {}, {} clipped",
+        "{}, {}: {}{repairs}; {} in {}, {} clipped",
         counted(vertices, "vertex", "vertices"),
         counted(triangles, "triangle", "triangles"),
         if made.closed { "closed" } else { "open" },

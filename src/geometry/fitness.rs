@@ -115,12 +115,17 @@ impl Fitness {
         match () {
             () if self.rough <= MOST_ROUGH => Suited::VertexDisks,
             () if self.rough < MOST_SPREAD && self.folded <= MOST_ROUGH => {
-                let distance = VISIBLE / RADIUS_PER_DISTANCE;
-                let smallest = (self.area / (distance * distance)).min(MOST_SPREAD_DISKS);
-                Suited::SpreadDisks((smallest as u64).max(self.vertices as u64))
+                Suited::SpreadDisks(self.spread_disks())
             }
             () => Suited::Triangles,
         }
+    }
+
+    /// So many disks, spread evenly over its area, that none stands visibly off it, as [`Suited::SpreadDisks`] has it.
+    pub fn spread_disks(&self) -> u64 {
+        let distance = VISIBLE / RADIUS_PER_DISTANCE;
+        let smallest = (self.area / (distance * distance)).min(MOST_SPREAD_DISKS);
+        (smallest as u64).max(self.vertices as u64)
     }
 }
 

@@ -17,6 +17,7 @@ mod neighbors;
 mod normals;
 mod overlaps;
 mod radii;
+mod repeated;
 mod resample;
 mod seams;
 mod sectors;
@@ -37,6 +38,7 @@ pub use hybrid::{
 pub use main_part::{MainPart, main_part};
 pub use mesh_splats::{DEFAULT_OVERLAP, fitting_splats, splats_from_mesh};
 pub use overlaps::Overlaps;
+pub use repeated::{REPEATED, drop_repeated};
 pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, check_memory_for, resample};
 pub use seams::{Seam, seams};
 pub use shaded_mesh::{creased_mesh, shaded_mesh};

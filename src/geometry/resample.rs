@@ -20,7 +20,7 @@ mod tests;
 use glam::{DVec3, Vec3};
 
 use super::{
-    corners,
+    corners, creased_mesh,
     mesh_splats::one_color,
     neighbors::Tree,
     surface::{MeshReport, Surface},
@@ -49,7 +49,7 @@ pub(super) const SHORTEST_NORMAL: f64 = 1e-6;
 /// Makes `count` disks at points spread evenly over a mesh's area, the same for the same `seed`.
 ///
 /// Centers are on the surface; they are in the order of the triangles. Normals and colors are interpolated from the
-/// vertices (those of [`super::splats_from_mesh`]), where the mesh has colors. Radii are [`RADIUS_PER_DISTANCE`] times
+/// vertices, where the mesh has colors; where it has no normals, each side of a crease has its own ([`creased_mesh`]). Radii are [`RADIUS_PER_DISTANCE`] times
 /// the mean distance to the 6 nearest neighbors. Degenerate triangles get no sample.
 ///
 /// # Errors
@@ -57,13 +57,30 @@ pub(super) const SHORTEST_NORMAL: f64 = 1e-6;
 /// [`crate::error::ErrorKind::Input`] for a mesh without area.
 pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> Result<(Splats, MeshReport)> {
     let count = check_count(count, "--resample")?;
-    let colors = vertex_colors(mesh);
-    check_memory(count, colors.is_some(), "--resample")?;
+    check_memory(count, vertex_colors(mesh).is_some(), "--resample")?;
     let areas = Areas::of(mesh, &|_| 1.0)?;
-    let surface = Surface::of(mesh, || {});
-    let samples = sample(mesh, colors, &surface.normals, &areas, count, seed, progress);
+    if mesh.normals.as_ref().is_some_and(|normals| normals.len() == mesh.positions.len()) {
+        let Surface { normals, report, .. } = Surface::of(mesh, || {});
+        return Ok((spread(mesh, &normals, &areas, (count, seed), progress), report));
+    }
+    let (mesh, report) = creased_mesh(mesh.clone());
+    let normals: Vec<DVec3> = mesh.normals.iter().flatten().map(|normal| normal.as_dvec3()).collect();
+    // Triangles without area are gone.
+    let areas = Areas::of(&mesh, &|_| 1.0)?;
+    Ok((spread(&mesh, &normals, &areas, (count, seed), progress), report))
+}
+
+/// Disks at samples of all triangles that have a part of `areas`. `normals` are the vertices'.
+fn spread(
+    mesh: &Mesh,
+    normals: &[DVec3],
+    areas: &Areas,
+    (count, seed): (usize, u64),
+    progress: &dyn Progress,
+) -> Splats {
+    let samples = sample(mesh, vertex_colors(mesh), normals, areas, count, seed, progress);
     let radii = radii::radii(&samples.positions, areas.total / count as f64, progress);
-    Ok((samples.splats(mesh, radii), surface.report))
+    samples.splats(mesh, radii)
 }
 
 /// A number of samples that `option` may ask for.

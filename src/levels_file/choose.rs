@@ -50,11 +50,14 @@ pub struct PageView {
 pub(super) struct Choice {
     pub pages: Vec<usize>,
     pub tau_px: f64,
+    /// The memory for the τ that was asked for.
+    pub wanted_bytes: u64,
 }
 
 impl Choice {
     pub fn all(pages: &[PageEntry]) -> Self {
-        Self { pages: (0..pages.len()).collect(), tau_px: 0.0 }
+        let wanted_bytes = pages.iter().map(PageEntry::host_bytes).sum();
+        Self { pages: (0..pages.len()).collect(), tau_px: 0.0, wanted_bytes }
     }
 }
 
@@ -97,13 +100,14 @@ impl PageView {
     /// [`crate::ErrorKind::Option`] where it suffices for none.
     pub(super) fn choose(&self, pages: &[PageEntry], most_bytes: u64) -> Result<Choice> {
         let seen: Vec<usize> = (0..pages.len()).filter(|i| self.sees(&pages[*i])).collect();
-        let mut tau_px = self.tau_px;
+        let (mut tau_px, mut wanted_bytes) = (self.tau_px, None);
         loop {
             let is_needed = |page: &PageEntry| self.draws_of(page, tau_px);
             let needed: Vec<usize> = seen.iter().copied().filter(|i| is_needed(&pages[*i])).collect();
             let (own, bytes) = self.shared(pages, needed);
+            let wanted_bytes = *wanted_bytes.get_or_insert(bytes);
             if bytes <= most_bytes {
-                return Ok(Choice { pages: own, tau_px });
+                return Ok(Choice { pages: own, tau_px, wanted_bytes });
             }
             if tau_px > LARGEST_PX {
                 let problem =

@@ -31,7 +31,7 @@ pub use header::Header;
 pub use ladder::{Ladder, Rung, Standing};
 pub use pager::{Arrived, Pager};
 pub use read::{Chosen, LevelsFile, is_levels_file};
-pub use table::{PageEntry, Reach};
+pub use table::{HOST_BYTES, PageEntry, Reach};
 pub use write_object::{Facts, Written, write_object};
 
 /// The most splats of a page: the number of a ball in it has 16 bits.

@@ -38,6 +38,8 @@ pub struct Chosen {
     pub pages: usize,
     /// How many bytes those have.
     pub bytes: u64,
+    /// The memory that what was asked for takes on its way to a device, in bytes.
+    pub wanted_bytes: u64,
 }
 
 /// Whether a file is one of this format, by its first bytes; not what can't be read, nor what is no regular file.
@@ -167,7 +169,8 @@ impl<R: Read + Seek> LevelsFile<R> {
         let mut object = empty_object(&self.path, &self.header, &self.pages, &choice.pages);
         self.read(&choice.pages, progress, |page| add(&mut object, page))?;
         let bytes = choice.pages.iter().map(|number| u64::from(self.pages[*number].bytes)).sum();
-        Ok(Chosen { object, tau_px: choice.tau_px, pages: choice.pages.len(), bytes })
+        let Choice { tau_px, wanted_bytes, .. } = choice;
+        Ok(Chosen { object, tau_px, pages: choice.pages.len(), bytes, wanted_bytes })
     }
 
     /// Reads pages in the order of the file.

@@ -76,7 +76,7 @@ impl Reach {
 
 /// Bytes of memory that a splat takes on its way to a device, and a node: twice what it has in a scene, as what is read and in the order of the
 /// device, and what finds its place and its neighbors.
-const HOST_BYTES: [u64; 2] = [220, 290];
+pub const HOST_BYTES: [u64; 2] = [220, 290];
 
 /// Bytes of memory on a device that a splat takes at most, and a node: itself, its color, and the balls of its parent and its own, of which there may be one for each.
 const DEVICE_BYTES: [u64; 2] = [84, 104];

@@ -139,12 +139,9 @@ fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress)
         }
     }?;
     refuse_nothing(&input, &loaded)?;
-    let unused = options.columns.is_some() && format != sniff::Format::Rows;
-    loaded.note(
-        Deed::Ignored,
-        unused.into(),
-        "choice of columns (--columns, of a file without rows of numbers)",
-    );
+    if format != sniff::Format::Rows {
+        loaded.notes.extend(options.columns_unused());
+    }
     if let Model::Mesh(mesh) = &mut loaded.model {
         let uncut = fans::cut(mesh, &std::mem::take(&mut loaded.fans), fans::MOST_LOOKS);
         let unused = mesh.drop_unused_vertices();

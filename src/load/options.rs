@@ -1,7 +1,10 @@
 //! How files are read: what they may hold at most, and what the user says of them.
 
 use super::{Columns, Input};
-use crate::error::Result;
+use crate::{
+    error::Result,
+    notes::{Deed, Note},
+};
 
 /// How files are read.
 #[derive(Clone, Debug, Default)]
@@ -12,6 +15,14 @@ pub struct LoadOptions {
     pub allow_outside: bool,
     /// What the columns of rows of numbers are; `None`: as the file's header or their number tells it.
     pub columns: Option<Columns>,
+}
+
+impl LoadOptions {
+    /// That the columns which the user names are of no use, where there are some, for a file that has no rows of numbers.
+    pub fn columns_unused(&self) -> Option<Note> {
+        let what = "choice of columns (--columns, of a file without rows of numbers)";
+        Note::of(Deed::Ignored, self.columns.is_some().into(), what)
+    }
 }
 
 /// What a file may hold at most: more is refused before memory is taken for it.

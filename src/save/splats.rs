@@ -3,7 +3,7 @@
 //! Disks are `x y z nx ny nz radius`, ellipses `x y z su_x su_y su_z sv_x sv_y sv_z`; `red green blue` where the colors
 //! are not those of a surface without any, and `alpha` where one is not 1. The line `comment surfel closed` keeps what no
 //! property tells: that the splats sample a closed surface, so that those which face away need not be drawn; `comment surfel up 0 0 1` which
-//! direction is up, where a file told it.
+//! direction is up, where that is known.
 //!
 //! **What is lost.** Normals, radii and tangent vectors: nothing. Positions: nothing as `double`; they are `float` only
 //! where that moves no splat by more than [`MOST_SHIFT`] of its radius. Colors: nothing that came from a file; the file

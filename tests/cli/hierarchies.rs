@@ -13,7 +13,7 @@ const SMALL: [&str; 4] = ["--size", "96x96", "--representation", "splats"];
 const LITTLE: [&str; 2] = ["--memory", "17MB"];
 
 /// A folder with a closed surface of that many splats, `splats.ply`.
-fn folder(splats: &str) -> Folder {
+pub fn folder(splats: &str) -> Folder {
     let folder = Folder::new();
     let octahedron = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n\
         f 1 2 3\nf 2 4 3\nf 4 5 3\nf 5 1 3\nf 2 1 6\nf 4 2 6\nf 5 4 6\nf 1 5 6\n";

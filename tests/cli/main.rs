@@ -22,6 +22,7 @@ mod octree_files;
 mod octrees;
 mod orthographic;
 mod outputs;
+mod parts;
 mod pick;
 mod program;
 mod refusals;
@@ -31,6 +32,7 @@ mod seen;
 mod selftest;
 mod shown;
 mod told;
+mod unused;
 
 use std::fs;
 

@@ -1,22 +1,20 @@
 //! `surfel convert`: a model as a file of splats.
 
+mod made;
+
 use std::{
     fs,
     path::{Path, PathBuf},
 };
 
 use clap::Args;
-use glam::DVec3;
 use surfel::{
-    Error, ErrorKind, Result,
-    compose::{sharpened, splats_kind},
-    geometry::{sharp::SharpOptions, up_of_shape},
+    Error, Progress as _, Result,
+    compose::splats_kind,
     levels_file::{self, LEAST_MEMORY, Written},
-    load::{Model, SplatRows, file_name, load},
+    load::{SplatRows, file_name},
     notes::counted,
-    report::InputReport,
     save,
-    scene::{Object, Scene},
 };
 
 use crate::{
@@ -24,8 +22,8 @@ use crate::{
     console::{self, Bars},
     inputs::ReadingArguments,
     outputs, parse,
-    scene::{load_object, not_a_mesh, refuse_losses, resample_mesh},
 };
+use made::Made;
 
 const HELP: &str = "Write a model as a file of splats.
 
@@ -35,8 +33,8 @@ the vertices, and radii of 1.5 times the mean distance to the 6 nearest neighbor
 
 With --splats or --max-error they are ellipses through the corners of the triangles of a simplified mesh, cut off at its ridges: edges \
 over which it bends by 30 degrees or more, and its border. Splats on both sides of a ridge are clipped by one curve. Vertices stay \
-where they are or vanish; a triangle that more than two curves cross becomes several splats. A mesh with an edge of more than two \
-triangles is refused.
+where they are or vanish; a triangle that more than two curves cross becomes several splats. Triangles that are turned around against \
+their neighbors are turned back; a mesh with an edge of more than two triangles is refused.
 
 The file is a binary PLY: x y z nx ny nz radius, or su_x ... sv_z (the tangent vectors) for ellipses, and red green blue \
 alpha (sRGB) where the model has colors. Parts of ellipses are cut off by clip_a1 clip_a3 clip_u clip_v clip_w, the same with \
@@ -44,7 +42,7 @@ clip2_, and clip_mode (0: either removes, 1: both must): a rational Bezier curve
 of its rim to a3 (radians, from su toward sv), with (u, v) its middle control point and w the weight of that; what is to the right \
 of the way is removed, and NaN is no curve. Positions are 64-bit where 32 bits would move a splat. The header line \"comment \
 surfel closed\" tells `surfel render` that the surface is closed, so that splats that face away need not be drawn, \"comment surfel up 0 0 1\" which \
-direction is up where the input's own format tells it.
+direction is up where the input, its format or its shape tells it.
 
 A file that is named .surfel holds the splats and their levels of detail in pages, of which `surfel render --lod 1px` reads those that its \
 view needs (docs/format.md).";
@@ -107,24 +105,14 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     if let Some(rows) = larger_than_memory(arguments)? {
         return convert_in_parts(arguments, rows, &bars);
     }
-    let made = bars.held(|| {
-        let made = match arguments.resample {
-            Some(count) => resampled_file(arguments, count, &bars),
-            None if arguments.splats.is_some() || arguments.max_error.is_some() => {
-                sharpened_file(arguments, &bars)
-            }
-            None => load_object(&arguments.input, &arguments.reading.options(), &bars),
-        }?;
-        if arguments.reading.strict {
-            refuse_losses(&made.1)?;
-        }
-        Ok(made)
-    });
+    let made = bars.held(|| made::made(arguments, &bars));
     bars.clear();
-    let (object, report, up) = made?;
+    let Made { object, report, up, hint } = made?;
     let summary = report.summary;
     if is_hierarchy(&arguments.output) {
-        return write_hierarchy(arguments, object, up, &summary, &bars);
+        let written = levels_file::write_object(&arguments.output, &object, up, &bars);
+        bars.clear();
+        return say_written(&summary, &arguments.output, &written?, ["", &hint]);
     }
     let written = save::splats(&arguments.output, &object.splats, object.closed, up, &bars);
     bars.clear();
@@ -134,7 +122,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     let closed = if object.closed { ", marked as closed" } else { "" };
     let (count, bytes) = (counted(object.splats.len() as u64, kind), written.bytes);
     let output = arguments.output.display();
-    console::print(&format!("{summary} -> {output}: {count}{positions}{closed}, {bytes} bytes"))
+    console::print(&format!("{summary} -> {output}: {count}{positions}{closed}, {bytes} bytes{hint}"))
 }
 
 /// Whether a file is to have levels of detail, by its name.
@@ -161,10 +149,10 @@ fn larger_than_memory(arguments: &ConvertArguments) -> Result<Option<SplatRows>>
         None if !is_hierarchy(output) => return Ok(None),
         _ => {}
     }
-    let rows = if arguments.resample.is_none() && input.is_file() {
-        SplatRows::open(input, &arguments.reading.options())?
-    } else {
-        None
+    let is_anew = arguments.resample.is_some() || arguments.splats.is_some() || arguments.max_error.is_some();
+    let rows = match !is_anew && input.is_file() {
+        true => SplatRows::open(input, &arguments.reading.options())?,
+        false => None,
     };
     match (rows, *memory) {
         (Some(rows), memory) => {
@@ -192,6 +180,9 @@ fn larger_than_memory(arguments: &ConvertArguments) -> Result<Option<SplatRows>>
 fn convert_in_parts(arguments: &ConvertArguments, rows: SplatRows, bars: &Bars) -> Result<()> {
     let name = file_name(&arguments.input);
     let (count, memory) = (rows.count(), arguments.memory.unwrap_or(DEFAULT_MEMORY));
+    if let Some(note) = arguments.reading.options().columns_unused() {
+        bars.note(&format!("{name}: {note}"));
+    }
     allocator::begin_peak();
     let written =
         levels_file::convert_splats(rows, &arguments.output, memory, arguments.reading.strict, bars);
@@ -204,71 +195,19 @@ fn convert_in_parts(arguments: &ConvertArguments, rows: SplatRows, bars: &Bars) 
     };
     let parts = format!(", built in {} parts within {peak_bytes} bytes of memory", written.parts);
     let count = counted(count, "splats");
-    say_written(&format!("{name}: {count}{left_out}"), &arguments.output, &written, &parts)
+    say_written(&format!("{name}: {count}{left_out}"), &arguments.output, &written, [&parts, ""])
 }
 
-/// Writes splats with levels of detail.
-fn write_hierarchy(
-    arguments: &ConvertArguments,
-    object: Object,
-    up: Option<DVec3>,
-    summary: &str,
-    bars: &Bars,
-) -> Result<()> {
-    let mut scene = Scene { objects: vec![object], ..Scene::default() };
-    let up = up.or_else(|| up_of_shape(&scene).map(|found| found.direction));
-    let Some(object) = scene.objects.pop() else { return Ok(()) };
-    let written = levels_file::write_object(&arguments.output, &object, up, bars);
-    bars.clear();
-    say_written(summary, &arguments.output, &written?, "")
-}
-
-fn say_written(summary: &str, output: &Path, written: &Written, how: &str) -> Result<()> {
+/// Tells what was written, and how; `hint` goes on from it.
+fn say_written(summary: &str, output: &Path, written: &Written, [how, hint]: [&str; 2]) -> Result<()> {
     let header = &written.header;
     let kind = if header.ellipses { "ellipses" } else { "disks" };
     let output = output.display();
     console::print(&format!(
-        "{summary} -> {output}: {} {kind} below {} nodes in {} pages{how}, {} bytes",
+        "{summary} -> {output}: {} {kind} below {} nodes in {} pages{how}, {} bytes{hint}",
         header.splats,
         header.nodes,
         header.pages,
         header.file_bytes()
     ))
-}
-
-/// Splats spread evenly over the mesh in a file, and what was done.
-fn resampled_file(
-    arguments: &ConvertArguments,
-    count: u64,
-    bars: &Bars,
-) -> Result<(Object, InputReport, Option<DVec3>)> {
-    let path = &arguments.input;
-    let loaded = load(path, &arguments.reading.options(), bars)?;
-    let mesh = match loaded.model {
-        Model::Mesh(mesh) => mesh,
-        other => return Err(not_a_mesh(path, &other)),
-    };
-    let (object, mut report) = resample_mesh(&mesh, path, count, arguments.seed, bars)?;
-    report.notes = [loaded.notes, report.notes].concat();
-    Ok((object, report, loaded.up))
-}
-
-/// Splats of a simplified mesh, clipped at its ridges, and what was done.
-fn sharpened_file(arguments: &ConvertArguments, bars: &Bars) -> Result<(Object, InputReport, Option<DVec3>)> {
-    let path = &arguments.input;
-    let loaded = load(path, &arguments.reading.options(), bars)?;
-    let mesh = match loaded.model {
-        Model::Mesh(mesh) => mesh,
-        other => return Err(not_a_mesh(path, &other)),
-    };
-    let options =
-        SharpOptions { splats: arguments.splats, max_error: arguments.max_error, ..SharpOptions::default() };
-    let made = sharpened(&mesh, file_name(path), &options, bars);
-    let (object, mut report) = made.map_err(|error| match error.kind() {
-        // The library knows no file.
-        ErrorKind::Input { place, problem, .. } => Error::input(path, place, problem),
-        _ => error,
-    })?;
-    report.notes = [loaded.notes, report.notes].concat();
-    Ok((object, report, loaded.up))
 }

@@ -3,8 +3,10 @@
 use clap::Args;
 use surfel::{
     Progress as _, Result,
+    compose::refuse_triangles,
     geometry::FoundUp,
-    levels_file::{LevelsFile, PageView, VERSION, is_levels_file},
+    levels_file::{HOST_BYTES, LevelsFile, PageView, VERSION, is_levels_file},
+    load::ObjectDescription,
     notes::counted,
     passes::count_drawn,
     report::{InputReport, ModelReport},
@@ -16,7 +18,7 @@ use crate::{
     inputs::Inputs,
     octrees::Octrees,
     parse,
-    scene::{Loaded, load_scene},
+    scene::{Loaded, load_scene, refuse_losses},
 };
 
 /// The memory for them.
@@ -70,7 +72,7 @@ fn load_by_view(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
 /// As [`load_scene`], of inputs of which some may be hierarchies: these are opened, and said what they hold.
 ///
 /// # Errors
-/// As [`load_scene`] and [`LevelsFile::open`].
+/// As [`load_scene`], [`refuse_triangles`] and [`LevelsFile::open`].
 pub fn load_scene_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     bars.held(|| load_with_hierarchies(inputs, bars))
 }
@@ -81,13 +83,23 @@ fn load_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     if hierarchies.is_empty() {
         return load_scene(inputs, bars);
     }
+    let Inputs { representation, samples, .. } = *inputs;
+    for path in &hierarchies {
+        let object = ObjectDescription { representation, samples, ..ObjectDescription::of_file(path) };
+        refuse_triangles(&object, "splats")?;
+    }
     let opened = hierarchies.iter().map(|path| LevelsFile::open(path)).collect::<Result<Vec<_>>>()?;
     let mut loaded = match others.is_empty() {
         true => None,
         false => Some(load_scene(&Inputs { files: others, ..inputs.clone() }, bars)?),
     };
     for file in opened {
-        let (ball, report) = (file.ball(), report(&file));
+        let (ball, mut report) = (file.ball(), report(&file));
+        report.notes.extend(inputs.options.columns_unused());
+        report.notes.iter().for_each(|note| bars.note(&format!("{}: {note}", report.name)));
+        if inputs.strict {
+            refuse_losses(&report)?;
+        }
         bars.note(&report.summary);
         let up = file
             .header()
@@ -148,13 +160,16 @@ pub fn load(
 ) -> Result<Settings> {
     let asked_px = settings.tau_px();
     let Budget::Splats(most) = settings.budget else {
-        let Read { objects, lines, tau_px } =
+        let Read { objects, lines, tau_px, wanted_bytes } =
             load_for(files, (camera, settings, asked_px), arguments, readers, bars)?;
         lines.iter().for_each(|line| console::say(line));
         scene.leveled = objects;
         if tau_px > asked_px {
+            let [splat, node] = HOST_BYTES;
             console::say(&format!(
-                "--budget-memory does not suffice for --lod {asked_px:.3}px: drawn with --lod {tau_px:.3}px"
+                "--budget-memory does not suffice for --lod {asked_px:.3}px: drawn with --lod {tau_px:.3}px; --lod {asked_px:.3}px takes {}, \
+                 {splat} bytes for each splat on its way to the device and {node} for each node",
+                megabytes(wanted_bytes)
             ));
             return Ok(Settings { lod: Lod::Px(tau_px), ..settings.clone() });
         }
@@ -163,7 +178,7 @@ pub fn load(
     // From a size that reads little: the number of splats goes by its square.
     let mut tau_px = COARSE_PX.max(asked_px);
     loop {
-        let Read { objects, lines, tau_px: read_px } =
+        let Read { objects, lines, tau_px: read_px, .. } =
             load_for(files, (camera, settings, tau_px), arguments, readers, bars)?;
         let drawn = count_drawn(&objects, camera, settings, read_px);
         if drawn >= most.into() || tau_px <= asked_px || read_px > tau_px {
@@ -187,6 +202,13 @@ struct Read {
     lines: Vec<String>,
     /// The size for which it suffices.
     tau_px: f64,
+    /// The memory that suffices for the size that was asked for.
+    wanted_bytes: u64,
+}
+
+/// Bytes as an option takes them, rounded up.
+pub fn megabytes(bytes: u64) -> String {
+    format!("{}MB", bytes.div_ceil(1_000_000))
 }
 
 /// What is to be drawn for a size, and that for which there is memory.
@@ -204,15 +226,17 @@ fn load_for(
         if settings.budget == Budget::Unlimited { view } else { view.with_coarser() }
     };
     let all: u64 = files.iter().map(|file| file.header().splats).sum();
-    let mut tau_px = asked_px;
+    let (mut tau_px, mut wanted_bytes) = (asked_px, 0);
     let mut read = Vec::new();
     for file in files.iter_mut() {
-        let share = |budget: u64| (budget as f64 * (file.header().splats as f64 / all.max(1) as f64)) as u64;
-        let budget = arguments.budget_memory.map_or(u64::MAX, share);
+        let share = file.header().splats as f64 / all.max(1) as f64;
+        let of_budget = |budget: u64| (budget as f64 * share) as u64;
+        let budget = arguments.budget_memory.map_or(u64::MAX, of_budget);
         let chosen = file.load(Some(&view(tau_px)), budget, bars);
         bars.clear();
         let chosen = chosen?;
         tau_px = chosen.tau_px;
+        wanted_bytes = wanted_bytes.max((chosen.wanted_bytes as f64 / share) as u64);
         read.push(chosen);
     }
     let (mut objects, mut lines) = (Vec::new(), Vec::new());
@@ -236,7 +260,7 @@ fn load_for(
             objects.push(chosen.object);
         }
     }
-    Ok(Read { objects, lines, tau_px })
+    Ok(Read { objects, lines, tau_px, wanted_bytes })
 }
 
 impl Loaded {

@@ -42,6 +42,7 @@ mod selftest;
 mod settings;
 mod steps;
 mod turns;
+mod unused;
 mod up;
 mod usage;
 mod view;

@@ -15,6 +15,7 @@ use surfel::{
 
 use crate::{
     console::{self, Bars},
+    hierarchies::megabytes,
     inputs::Inputs,
     scene::refuse_losses,
 };
@@ -125,6 +126,7 @@ fn choose(
     };
     let asked_px = if settings.lod == Lod::Auto { 1.0 } else { settings.tau_px() };
     let (mut nodes, mut points) = at(asked_px)?;
+    let wanted_bytes = points.saturating_mul(BYTES_PER_POINT);
     let [largest_px, smallest_px] = SIZES_PX;
     let mut tau_px = asked_px;
     // What is smaller than a pixel is drawn where a budget allows it.
@@ -144,8 +146,10 @@ fn choose(
     }
     if tau_px > asked_px {
         console::say(&format!(
-            "{}: --budget-memory does not suffice for --lod {asked_px:.3}px: read for --lod {tau_px:.3}px",
-            file_name(octree.path())
+            "{}: --budget-memory does not suffice for --lod {asked_px:.3}px: read for --lod {tau_px:.3}px; --lod {asked_px:.3}px takes {}, {BYTES_PER_POINT} \
+             bytes for each point on its way to the device",
+            file_name(octree.path()),
+            megabytes(wanted_bytes)
         ));
     }
     Ok(nodes)

@@ -93,6 +93,11 @@ impl PictureArguments {
         self.settings.over(Settings::default())
     }
 
+    /// The names of the settings that the user gave.
+    pub fn said(&self) -> impl Iterator<Item = &'static str> {
+        self.settings.said()
+    }
+
     /// The settings where a scene file says something of the picture, not yet checked.
     pub fn settings_in(&self, scene_file: &PictureDescription) -> Settings {
         self.settings.said_over(scene_file.over(self.settings()))

@@ -7,7 +7,7 @@ use surfel::{
     Error, Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Budget, CropView, Epsilon, Settings, Storage},
+    scene::{Ball, Budget, CameraPath, CropView, Epsilon, Settings, Storage},
 };
 
 use crate::{
@@ -32,6 +32,7 @@ use crate::{
     scene_file_keys::KEYS,
     settings::{Given, Taken},
     steps::Steps,
+    unused,
 };
 
 const EXAMPLES: &str = "Examples:
@@ -110,10 +111,11 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     if arguments.film.is_given() {
         refuse_beside_a_film(arguments)?;
         let output = film::Output::of(&arguments.picture, &arguments.film)?;
+        let path = film::path(&arguments.film)?;
         let headless = arguments.device.open()?;
         return arguments.device.watch(headless, |headless| {
             headless.renderer.check_settings(&part.settings)?;
-            draw_film(headless, arguments, &part, &camera, &output)
+            draw_film(headless, arguments, &part, (&camera, path.as_ref()), &output)
         });
     }
     if arguments.film.fps.is_some() {
@@ -203,7 +205,10 @@ fn load(
     bars: &Bars,
 ) -> Result<(Loaded, Settings)> {
     let picture = &arguments.picture;
-    let mut loaded = load_scene_by_view(&picture.input.inputs(), bars)?;
+    let inputs = picture.input.inputs();
+    let mut loaded = load_scene_by_view(&inputs, bars)?;
+    let memory = arguments.hierarchies.budget_memory.map(|_| "budget-memory");
+    unused::tell(picture.said().chain(arguments.storage.said()).chain(memory), &inputs, &loaded);
     oddities::tell(&loaded.scene, &loaded.ball);
     origin::tell(&loaded.scene, &loaded.ball);
     picture.light(&mut loaded.scene);
@@ -224,12 +229,13 @@ fn draw_film(
     headless: &mut Headless,
     arguments: &RenderArguments,
     part: &Drawn,
-    camera: &CameraChoice,
+    (camera, path): (&CameraChoice, Option<&CameraPath>),
     output: &film::Output,
 ) -> Result<()> {
     let bars = Bars::new();
     let (loaded, settings) = load(headless, arguments, part, &bars)?;
-    let shots = film::shots(&arguments.film, arguments.frames, || camera.camera(&loaded, part.whole_px))?;
+    let base = || camera.camera(&loaded, part.whole_px);
+    let shots = film::shots(&arguments.film, path, arguments.frames, base)?;
     if arguments.picture.print_camera {
         shots.iter().try_for_each(|camera| console::print(&camera::words(camera)))?;
     }

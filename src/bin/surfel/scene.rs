@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Progress as _, Result,
-    compose::{ball_of_target, build, make, resampled},
+    compose::{ball_of_target, build, resampled},
     geometry::{FoundUp, up_of_shape},
     levels_file::LevelsFile,
     load::{
-        BuiltIn, LoadOptions, Model, ObjectDescription, PictureDescription, Representation, Samples, Source,
-        file_name, is_scene_file, load_scene_file,
+        BuiltIn, Model, ObjectDescription, PictureDescription, Representation, Samples, Source, file_name,
+        is_scene_file, load_scene_file,
     },
     prepare::PreparedScene,
     renderer::Headless,
@@ -22,7 +22,7 @@ use crate::{
     console::{Bars, Repeated},
     inputs::Inputs,
     octrees::Octrees,
-    oddities, up,
+    oddities, unused, up,
 };
 
 /// A scene with its extent and where it came from.
@@ -129,23 +129,6 @@ pub fn upload(headless: &Headless, scene: &Scene, bars: &Bars) -> Result<Prepare
     prepared
 }
 
-/// The splats of one input that is no scene file, without those that can't be drawn, and the direction that is up if its file tells one.
-pub fn load_object(
-    path: &Path,
-    options: &LoadOptions,
-    bars: &Bars,
-) -> Result<(Object, InputReport, Option<DVec3>)> {
-    let representation = Representation::Splats;
-    let object = ObjectDescription { representation, ..ObjectDescription::of_file(path) };
-    bars.held(|| {
-        let built = make(&object, options, bars);
-        bars.clear();
-        let built = built?;
-        let splats = built.splats.ok_or_else(|| Error::input(path, "", "has no splat"))?;
-        Ok((splats, built.report, built.up))
-    })
-}
-
 /// Why a file of splats or points can't be resampled.
 pub fn not_a_mesh(path: &Path, model: &Model) -> Error {
     let contents = model.contents();
@@ -213,10 +196,10 @@ fn describe(inputs: &Inputs, bars: &Bars) -> Result<Described> {
         (true, ..) => described.objects.push(ObjectDescription::of_built_in(BuiltIn::Relief)),
         _ => {}
     }
-    if let (Some(file), [first, others @ ..]) =
+    if let (Some(file), options @ [_, ..]) =
         (inputs.files.iter().find(|file| is_scene_file(file)), &inputs.not_for_scene_files[..])
     {
-        let options = others.iter().fold((*first).to_owned(), |all, other| format!("{all} and {other}"));
+        let options = unused::joined(options);
         bars.note(&format!(
             "{}: without {options}, as the keys of its objects say how they are drawn",
             file_name(file)

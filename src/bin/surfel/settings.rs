@@ -51,6 +51,11 @@ impl<T: Taken> Given<T> {
         self.said.iter().any(|setting| setting.name == name)
     }
 
+    /// The names of what is given by no default.
+    pub fn said(&self) -> impl Iterator<Item = &'static str> {
+        self.said.iter().map(|setting| setting.name)
+    }
+
     /// `base` but for what is given by no default.
     pub fn said_over(&self, mut base: T::Table) -> T::Table {
         for setting in &self.said {

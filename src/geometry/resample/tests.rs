@@ -164,6 +164,34 @@ fn samples_lie_on_the_surface_with_its_normals_and_colors() {
     assert!(triangle > mesh.triangles.len() - 5, "all triangles");
 }
 
+/// A cube, whose corners have three faces each, and an octagonal tube: without normals of the file each face has its own.
+#[test]
+fn faces_of_a_part_are_flat() {
+    let corner = |i: u32| DVec3::new((i & 1).into(), (i >> 1 & 1).into(), (i >> 2).into());
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let mut cube = Mesh {
+        positions: (0..8).map(corner).collect(),
+        triangles: sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
+        ..Mesh::default()
+    };
+    let flat = |mesh: &Mesh| {
+        let (splats, report) = samples(mesh, 600, 0);
+        assert!(report.closed);
+        let (normals, _) = disks(&splats);
+        normals.iter().filter(|normal| normal.abs().max_element() > 0.9999).count()
+    };
+    assert_eq!(flat(&cube), 600);
+    // What the file says stays, and so does what is inside out.
+    cube.normals = Some(cube.positions.iter().map(|p| (*p - 0.5).as_vec3()).collect());
+    assert!(flat(&cube) < 10);
+    cube.normals = None;
+    cube.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+    assert_eq!(flat(&cube), 600);
+    let (splats, _) = samples(&cube, 600, 0);
+    let outward = |i: &usize| disks(&splats).0[*i].as_dvec3().dot(splats.positions[*i] - 0.5) > 0.0;
+    assert_eq!((0..600).filter(outward).count(), 600);
+}
+
 #[test]
 fn a_mesh_without_colors_gets_the_color_of_surfaces_without_any() {
     let gray = linear_from_srgb(204.0 / 255.0);

@@ -7,7 +7,11 @@ use rayon::prelude::*;
 
 use crate::{
     error::{Error, Result},
-    geometry::{sharp::slivers, topology::signed_volume},
+    geometry::{
+        repeated::{REPEATED, drop_repeated},
+        sharp::{orientation, slivers},
+        topology::signed_volume,
+    },
     notes::{Deed, Note},
     scene::{Colors, Mesh},
 };
@@ -35,6 +39,8 @@ pub struct Repairs {
     pub degenerate: usize,
     /// Triangles of the same three vertices as another.
     pub repeated: usize,
+    /// Triangles that were turned around, so that neighbors agree.
+    pub flipped: usize,
     /// The closed surface was inside out.
     pub turned: bool,
 }
@@ -45,7 +51,8 @@ impl Repairs {
         let notes = [
             Note::of(Deed::Merged, self.welded, "vertices at the place of another"),
             Note::of(Deed::Dropped, self.degenerate, "triangles without area"),
-            Note::of(Deed::Dropped, self.repeated, "triangles of the same vertices as another"),
+            Note::of(Deed::Dropped, self.repeated, REPEATED),
+            Note::of(Deed::Replaced, self.flipped, "triangles whose direction is not their neighbors'"),
             Note::of(Deed::Replaced, self.turned.into(), "surface that is inside out"),
         ];
         notes.into_iter().flatten().collect()
@@ -60,11 +67,12 @@ pub(super) struct Sound {
 }
 
 impl Sound {
-    /// Vertices at equal places are made one, triangles without area and repeated ones left out.
+    /// Vertices at equal places are made one, triangles without area and repeated ones left out, and those turned around that pass an edge as
+    /// their neighbor does.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Input`] for an edge of more than two triangles, or of two that pass it in the same direction, and for a mesh
-    /// without any triangle.
+    /// [`crate::error::ErrorKind::Input`] for an edge of more than two triangles, for a surface of one side, and for a mesh without any
+    /// triangle.
     pub fn of(mesh: &Mesh) -> Result<Self> {
         let (mut mesh, mut repairs) = (mesh.clone(), Repairs::default());
         repairs.welded = weld(&mut mesh);
@@ -73,7 +81,13 @@ impl Sound {
         if mesh.triangles.is_empty() {
             return Err(Error::input("mesh", "", "no triangle with an area; expected one"));
         }
-        let edges = edges(&mesh.positions, &mesh.triangles)?;
+        let edges = match edges(&mesh.positions, &mesh.triangles) {
+            Ok(edges) => edges,
+            Err(_) => {
+                repairs.flipped = orientation::agree(&mut mesh.triangles);
+                edges(&mesh.positions, &mesh.triangles)?
+            }
+        };
         if edges.iter().all(|edge| edge.left != NONE && edge.right != NONE) && signed_volume(&mesh) < 0.0 {
             mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
             let turned = edges.iter().map(|edge| Edge { left: edge.right, right: edge.left, ..*edge });
@@ -102,25 +116,6 @@ fn weld(mesh: &mut Mesh) -> usize {
         }
     }
     used.iter().filter(|used| **used).count()
-}
-
-fn drop_repeated(triangles: &mut Vec<[u32; 3]>) -> usize {
-    let sorted = |triangle: &[u32; 3]| {
-        let mut sorted = *triangle;
-        sorted.sort_unstable();
-        sorted
-    };
-    let mut all: Vec<([u32; 3], u32)> =
-        triangles.par_iter().enumerate().map(|(i, t)| (sorted(t), i as u32)).collect();
-    all.par_sort_unstable();
-    let mut keep = vec![true; triangles.len()];
-    for same in all.chunk_by(|a, b| a.0 == b.0) {
-        same[1..].iter().for_each(|(_, i)| keep[*i as usize] = false);
-    }
-    let before = triangles.len();
-    let mut keep = keep.iter();
-    triangles.retain(|_| *keep.next().unwrap_or(&true));
-    before - triangles.len()
 }
 
 /// All edges, by their vertices.
@@ -210,14 +205,25 @@ mod tests {
         let faulty = mesh(&apart, &[[0, 1, 2], [5, 6, 3], [2, 0, 1], [0, 2, 6]]);
         let repaired = Sound::of(&faulty).unwrap();
         assert_eq!(repaired.mesh.triangles, good.mesh.triangles);
-        assert_eq!(repaired.repairs, Repairs { welded: 2, degenerate: 1, repeated: 1, turned: false });
+        assert_eq!(repaired.repairs, Repairs { welded: 2, degenerate: 1, repeated: 1, ..Repairs::default() });
         let refusal =
             |triangles: &[[u32; 3]]| Sound::of(&mesh(&SQUARE, triangles)).err().unwrap().to_string();
         let expected = "mesh: edge between [0, 0, 0] and [1, 1, 0]: 3 triangles; expected at most 2";
         assert_eq!(refusal(&[[0, 1, 2], [0, 2, 3], [0, 2, 4]]), expected);
-        let expected = "mesh: edge between [0, 0, 0] and [1, 1, 0]: both triangles pass it in the same direction; expected opposite ones";
-        assert_eq!(refusal(&[[0, 1, 2], [2, 0, 3]]), expected);
+        // A strip of one side.
+        let expected = "mesh: edge between [0, 0, 0] and [1, 0, 0]: both triangles pass it in the same direction; expected opposite ones";
+        assert_eq!(refusal(&[[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 0, 4], [4, 0, 1]]), expected);
         assert_eq!(refusal(&[[0, 0, 9]]), "mesh: no triangle with an area; expected one");
+    }
+
+    #[test]
+    fn a_triangle_that_is_turned_against_its_neighbors_is_turned_back() {
+        let good = Sound::of(&mesh(&SQUARE, &[[0, 1, 2], [0, 2, 3]])).unwrap();
+        let repaired = Sound::of(&mesh(&SQUARE, &[[0, 1, 2], [0, 3, 2]])).unwrap();
+        assert_eq!((repaired.mesh.triangles, repaired.edges), (good.mesh.triangles, good.edges));
+        assert_eq!(repaired.repairs, Repairs { flipped: 1, ..Repairs::default() });
+        let told = repaired.repairs.notes().iter().map(ToString::to_string).collect::<Vec<_>>();
+        assert_eq!(told, ["1 triangle whose direction is not their neighbors' replaced"]);
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod ellipse;
 mod feasible;
 mod fit;
 mod model;
+mod orientation;
 mod quadric;
 mod ridges;
 mod rim;

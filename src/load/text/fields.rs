@@ -1,5 +1,6 @@
 //! A line taken apart, and the numbers in it.
 
+use super::thousands;
 use crate::load::number;
 
 /// What stands between the numbers of a row.
@@ -23,14 +24,18 @@ impl Writing {
     /// Told by one row.
     pub fn of(row: &[u8]) -> Self {
         let has = |byte: u8| row.contains(&byte);
+        let is_marked = |word: &[u8]| thousands::read(unquoted(word)).is_some_and(|(_, mark)| mark == b",");
+        let semicolon = Self { between: Between::Semicolon, decimal_comma: has(b',') };
         if has(b';') {
-            return Self { between: Between::Semicolon, decimal_comma: has(b',') };
+            let decimal_comma = has(b',') && !semicolon.fields(row).any(is_marked);
+            return Self { decimal_comma, ..semicolon };
         }
         // Of a table whose words are in quotation marks: a comma within is none between, and no mark of thousands where other than three digits follow.
         let quoted = Self { between: Between::Comma, decimal_comma: true };
         let is_decimal = |word: &[u8]| {
             let within = word.strip_prefix(b"\"").and_then(|word| word.split(|b| *b == b',').nth(1));
-            within.is_some_and(|digits| digits.strip_suffix(b"\"").is_some_and(|digits| digits.len() != 3))
+            let digits = within.and_then(|digits| digits.strip_suffix(b"\""));
+            digits.is_some_and(|digits| digits.len() != 3 && !digits.contains(&b'.'))
         };
         if has(b'"') && quoted.fields(row).any(is_decimal) {
             return quoted;
@@ -43,6 +48,11 @@ impl Writing {
             words += usize::from(is_number);
             is_number || !word.contains(&b',')
         });
+        let with_marks = Self { decimal_comma: false, ..blanks };
+        let are_numbers = || with_marks.fields(row).all(|word| with_marks.number(word).is_some());
+        if with_marks.fields(row).any(is_marked) && with_marks.fields(row).nth(2).is_some() && are_numbers() {
+            return with_marks;
+        }
         match has(b',') && !(all_decimal && words >= 3) {
             true => Self { between: Between::Comma, decimal_comma: false },
             false => blanks,
@@ -115,7 +125,15 @@ impl<'a> Iterator for Fields<'a> {
 const MOST_DECIMAL_BYTES: usize = 64;
 
 fn number(word: &[u8], decimal_comma: bool) -> Option<f64> {
-    let word = word.strip_prefix(b"\"").and_then(|w| w.strip_suffix(b"\"")).unwrap_or(word);
+    let word = unquoted(word);
+    plain_number(word, decimal_comma).or_else(|| thousands::read(word).map(|(value, _)| value))
+}
+
+fn unquoted(word: &[u8]) -> &[u8] {
+    word.strip_prefix(b"\"").and_then(|word| word.strip_suffix(b"\"")).unwrap_or(word)
+}
+
+fn plain_number(word: &[u8], decimal_comma: bool) -> Option<f64> {
     if decimal_comma && word.contains(&b',') {
         let mut copy = [0; MOST_DECIMAL_BYTES];
         let copy = copy.get_mut(..word.len())?;
@@ -132,7 +150,7 @@ mod tests {
 
     #[test]
     fn every_way_to_write_a_row_is_told() {
-        let cases: [(&str, Between, bool, &[f64]); 11] = [
+        let cases: [(&str, Between, bool, &[f64]); 17] = [
             ("1 2\t 3", Between::Blanks, false, &[1.0, 2.0, 3.0]),
             ("1,2,3", Between::Comma, false, &[1.0, 2.0, 3.0]),
             ("1, 2, 3,", Between::Comma, false, &[1.0, 2.0, 3.0]),
@@ -142,6 +160,12 @@ mod tests {
             ("\"1.5\",\"2\",\"3\"", Between::Comma, false, &[1.5, 2.0, 3.0]),
             ("\"0,85\",\"2\",\"-3,125\"", Between::Comma, true, &[0.85, 2.0, -3.125]),
             ("\"1,234\",\"2\",\"3\"", Between::Comma, false, &[]),
+            ("\"1,234.5\",\"12,345.25\",\"3\"", Between::Comma, false, &[1234.5, 12_345.25, 3.0]),
+            ("1,234.5;2;3.25", Between::Semicolon, false, &[1234.5, 2.0, 3.25]),
+            ("1.234,5;2;3,25", Between::Semicolon, true, &[1234.5, 2.0, 3.25]),
+            ("1 234,5;2 000;3,25", Between::Semicolon, true, &[1234.5, 2000.0, 3.25]),
+            ("1,234.5 2 3,000.25", Between::Blanks, false, &[1234.5, 2.0, 3000.25]),
+            ("1 234.5,2 000,3", Between::Comma, false, &[1234.5, 2000.0, 3.0]),
             ("1e3 +2. .5", Between::Blanks, false, &[1000.0, 2.0, 0.5]),
             ("1,2,3 4,5,6", Between::Comma, false, &[1.0, 2.0]),
         ];

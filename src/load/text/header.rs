@@ -2,7 +2,7 @@
 
 use super::{
     columns::{Column, Columns},
-    fields::Writing,
+    fields::{Between, Writing},
 };
 use crate::load::lines::shown;
 
@@ -22,10 +22,13 @@ pub(super) fn names_columns(line: &[u8], writing: Writing) -> bool {
 pub(super) fn are_units(line: &[u8], writing: Writing) -> bool {
     let is_unit = |word: &[u8]| {
         let text = word.trim_ascii();
-        matches!((text.first(), text.last()), (Some(b'['), Some(b']')) | (Some(b'('), Some(b')')))
-            || UNITS.iter().any(|unit| text.eq_ignore_ascii_case(unit))
+        is_bracketed(text) || UNITS.iter().any(|unit| text.eq_ignore_ascii_case(unit))
     };
     writing.fields(line).all(is_unit)
+}
+
+fn is_bracketed(word: &[u8]) -> bool {
+    matches!((word.first(), word.last()), (Some(b'['), Some(b']')) | (Some(b'('), Some(b')')))
 }
 
 const UNITS: [&[u8]; 8] = [b"m", b"cm", b"mm", b"km", b"ft", b"in", b"-", b""];
@@ -37,6 +40,15 @@ pub(super) struct Found<C> {
     pub geographic: bool,
     /// A line in front of the rows tells it.
     pub has_header: bool,
+    /// The unit of x, y and z in metres, where each of them names the same.
+    pub metres_per_unit: Option<f64>,
+}
+
+impl<C> Found<C> {
+    /// Columns, and nothing else.
+    pub fn of(columns: C) -> Self {
+        Self { columns, ignored: Vec::new(), geographic: false, has_header: false, metres_per_unit: None }
+    }
 }
 
 /// What a line names.
@@ -52,16 +64,42 @@ pub(super) fn named(line: &[u8]) -> Found<Vec<Column>> {
     }
     let others = columns.iter().zip(names()).filter(|(column, _)| **column == Column::Other);
     let ignored = others.map(|(_, name)| format!("column '{}'", shown(name.as_bytes()))).collect();
-    Found { columns, ignored, geographic, has_header: false }
+    let of_places = columns.iter().zip(names()).filter(|(column, _)| matches!(column, Column::Position(_)));
+    let mut units = of_places.map(|(_, name)| metres_of(name));
+    let first = units.next().flatten();
+    let metres_per_unit = first.filter(|_| !geographic && units.all(|unit| unit == first));
+    Found { columns, ignored, geographic, has_header: false, metres_per_unit }
 }
+
+/// The unit in brackets behind a name, in metres.
+fn metres_of(name: &str) -> Option<f64> {
+    let (_, unit) = name.split_once(['[', '('])?;
+    let unit = unit.split([']', ')']).next()?.trim_matches(['_', ' ']).to_ascii_lowercase();
+    METRES.iter().find(|(name, _)| *name == unit).map(|(_, metres)| *metres)
+}
+
+const METRES: [(&str, f64); 7] = [
+    ("m", 1.0),
+    ("cm", 0.01),
+    ("mm", 0.001),
+    ("km", 1000.0),
+    ("ft", 0.3048),
+    ("in", 0.0254),
+    ("inch", 0.0254),
+];
 
 /// As [`named`], of a header: blanks may be part of names where something else stands between them.
 pub(super) fn of_header(line: &[u8], writing: Writing) -> Found<Vec<Column>> {
-    let words: Vec<Vec<u8>> = Writing { decimal_comma: false, ..writing }
-        .fields(line)
+    let mut words: Vec<Vec<u8>> = Vec::new();
+    for name in (Writing { decimal_comma: false, ..writing }).fields(line) {
         // A name that is empty is one, as that of the row's number in tables of pandas.
-        .map(|name| if name.is_empty() { b"-" } else { name })
-        .map(|name| name.iter().map(|b| if *b == b' ' { b'_' } else { *b }).collect())
-        .collect();
+        let name = if name.is_empty() { b"-" } else { name };
+        let mut word: Vec<u8> = name.iter().map(|b| if *b == b' ' { b'_' } else { *b }).collect();
+        match words.last_mut() {
+            // Between blanks a unit is no name of its own.
+            Some(last) if writing.between == Between::Blanks && is_bracketed(name) => last.append(&mut word),
+            _ => words.push(word),
+        }
+    }
     named(&words.join(&b' '))
 }

@@ -29,6 +29,8 @@ pub(super) struct Layout {
     pub columns: Columns,
     /// x and y are longitude and latitude in degrees.
     pub geographic: bool,
+    /// The unit of x, y and z in metres, where a header names it.
+    pub metres_per_unit: Option<f64>,
     /// What the columns that are not read are called, or how many there are.
     pub ignored: Vec<String>,
     /// How many lines of words stand above the rows, a header that names columns aside.
@@ -86,7 +88,7 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
             }
             (true, false) => {
                 let start = count.map_or(at, |(at, _)| at);
-                let Found { columns, ignored, geographic, has_header } =
+                let Found { columns, ignored, geographic, has_header, metres_per_unit } =
                     match of_colmap && input.options.columns.is_none() {
                         true => colmap(),
                         false => columns(input, writing, at, header, comment, rest)?,
@@ -97,6 +99,7 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
                     writing,
                     columns,
                     geographic,
+                    metres_per_unit,
                     ignored,
                     titles,
                     start,
@@ -133,7 +136,7 @@ fn is_row_with_words(writing: Writing, lines: Lines<'_>) -> Result<bool, Fault> 
 /// The columns of `points3D.txt`, by its description in COLMAP's documentation.
 fn colmap() -> Found<Columns> {
     let columns = "-,x,y,z,r,g,b".parse().unwrap_or_else(|_| Columns::default());
-    Found { columns, ignored: vec!["errors and tracks".to_owned()], geographic: false, has_header: false }
+    Found { ignored: vec!["errors and tracks".to_owned()], ..Found::of(columns) }
 }
 
 fn too_long(most: usize) -> String {
@@ -175,30 +178,30 @@ fn columns(
         let ignored = vec![format!("column {}", given.columns().len() + 1); behind.min(1)];
         // A header is, then, no title.
         let has_header = header.is_some();
-        return Ok(Found { columns: given.clone(), ignored, geographic: false, has_header });
+        return Ok(Found { ignored, has_header, ..Found::of(given.clone()) });
     }
     if let Some((at, line)) = header {
-        let Found { columns, ignored, geographic, .. } = of_header(line, writing);
+        let Found { columns, ignored, geographic, metres_per_unit, .. } = of_header(line, writing);
         // A line of another number of words, without names of columns, is a title.
         let is_title = columns.len() != width && columns.iter().all(|column| *column == Column::Other);
         if !is_title {
             let columns = Columns::new(columns)
                 .map_err(|problem| (at, format!("header: {problem}, or --columns to name them")))?;
-            return Ok(Found { columns, ignored, geographic, has_header: true });
+            return Ok(Found { columns, ignored, geographic, has_header: true, metres_per_unit });
         }
     }
-    if let Some(Found { columns, ignored, geographic, has_header }) = comment.map(named)
+    if let Some(Found { columns, ignored, geographic, has_header, metres_per_unit }) = comment.map(named)
         && columns.len() == width
         && let Ok(columns) = Columns::new(columns)
     {
-        return Ok(Found { columns, ignored, geographic, has_header });
+        return Ok(Found { columns, ignored, geographic, has_header, metres_per_unit });
     }
     let samples = samples(writing, width, Lines { at, ..rows })?;
     let columns = by_numbers::columns(width, &samples);
     let ignored = (1..).zip(&columns).filter(|(_, column)| **column == Column::Other);
     let ignored = ignored.map(|(i, _)| format!("column {i}")).collect();
     match Columns::new(columns) {
-        Ok(columns) => Ok(Found { columns, ignored, geographic: false, has_header: false }),
+        Ok(columns) => Ok(Found { ignored, ..Found::of(columns) }),
         Err(_) => Err((at, format!("{width} numbers in a row; expected at least 3"))),
     }
 }

@@ -10,6 +10,7 @@ mod ptx;
 mod rows;
 #[cfg(test)]
 mod tests;
+mod thousands;
 
 use super::{Input, Loaded, Model, geographic::Place, shade};
 use crate::{
@@ -18,7 +19,7 @@ use crate::{
     scene::{Colors, Points},
 };
 use layout::{Fault, Layout};
-use rows::Rows;
+use rows::{Below, Rows};
 
 pub use columns::{Column, Columns};
 
@@ -69,12 +70,20 @@ fn loaded(rows: Rows, layout: &Layout) -> Loaded {
         place.flatten(&mut points);
     }
     let mut loaded = Loaded::new(Model::Points(points), format);
+    loaded.metres_per_unit = layout.metres_per_unit;
     if let Some(place) = place {
         place.tell(&mut loaded, count);
     }
     loaded.note(Deed::Clamped, outside, "points with a color out of its range");
     loaded.note(Deed::Ignored, longer, "rows with more numbers than columns, whose rest is");
     loaded.note(Deed::Ignored, layout.titles, "lines of words above the rows");
+    if let Some(Below { words, .. }) = rows.below.first() {
+        loaded.note(
+            Deed::Ignored,
+            rows.below.len() as u64,
+            format!("lines of words ('{words}') below the rows"),
+        );
+    }
     let ignored = &layout.ignored;
     if !ignored.is_empty() {
         let names: Vec<&str> = ignored.iter().take(8).map(String::as_str).collect();

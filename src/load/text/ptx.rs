@@ -104,6 +104,7 @@ impl Scans {
             writing: WRITING,
             columns: names.parse().unwrap_or_else(|_| Columns::default()),
             geographic: false,
+            metres_per_unit: None,
             ignored: Vec::new(),
             titles: 0,
             start,
@@ -112,6 +113,7 @@ impl Scans {
         };
         let bytes = input.bytes.get(..end).unwrap_or(input.bytes);
         let found = rows::read(bytes, &layout, limits, |done| input.step(done))?;
+        found.refuse_words()?;
         self.place(&found, DMat4::from_cols_array_2d(&matrix));
         if self.positions.len() as u64 > limits.points {
             return Err((begin, format!("more than {} points; expected at most that", limits.points)));

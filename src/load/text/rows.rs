@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::{
     columns::{Column, SLOTS},
+    header::MOST_TITLES,
     layout::{Fault, Layout, Lines, comment_text},
 };
 use crate::load::{Limits, lines::shown};
@@ -19,8 +20,17 @@ pub(super) struct Rows {
     pub radii: Vec<f32>,
     /// How many rows have more numbers than the first.
     pub longer: u64,
+    /// Lines of words of which no row is known to follow: sums, and whatever ends a table.
+    pub below: Vec<Below>,
     /// Numbers that stand alone in a line: the byte, the number, how many rows stand before it.
     counts: Vec<(usize, f64, u64)>,
+}
+
+/// A line that is no row: at which byte, its words, and what is wrong with it.
+pub(super) struct Below {
+    at: usize,
+    pub words: String,
+    problem: String,
 }
 
 /// About how many bytes are read at once by a thread.
@@ -48,7 +58,7 @@ pub(super) fn read(
         let read: Vec<Result<Rows, Fault>> =
             blocks.into_par_iter().map(|(start, end)| block(bytes, start, end, layout, limits)).collect();
         for block in read {
-            rows.append(block?);
+            rows.append(block?)?;
         }
         if rows.positions.len() as u64 > limits.points {
             return Err((layout.start, format!("more than {} rows; expected at most that", limits.points)));
@@ -75,7 +85,14 @@ fn block(bytes: &[u8], start: usize, end: usize, layout: &Layout, limits: &Limit
         if line.is_empty() || comment_text(line).is_some() {
             continue;
         }
-        rows.line(at, line, layout, &slots).map_err(|problem| (at, problem))?;
+        match rows.line(at, line, layout, &slots) {
+            Ok(()) => rows.refuse_words()?,
+            // Rows may end with words, but not with numbers that are too few.
+            Err(problem) if is_words(line, layout) && rows.below.len() < MOST_TITLES => {
+                rows.below.push(Below { at, words: shown(line), problem });
+            }
+            Err(problem) => return Err(rows.below.first().map_or((at, problem), Below::fault)),
+        }
     }
     Ok(rows)
 }
@@ -85,6 +102,18 @@ fn is_missing(word: &[u8]) -> bool {
     ["", "\"\"", "NA", "N/A", "null", "none", "-"]
         .iter()
         .any(|name| word.eq_ignore_ascii_case(name.as_bytes()))
+}
+
+/// Whether a line starts with a word that is no number, and none that stands for one.
+fn is_words(line: &[u8], layout: &Layout) -> bool {
+    let first = layout.writing.fields(line).next();
+    first.is_some_and(|word| layout.writing.number(word).is_none() && !is_missing(word))
+}
+
+impl Below {
+    fn fault(&self) -> Fault {
+        (self.at, self.problem.clone())
+    }
 }
 
 impl Rows {
@@ -140,7 +169,19 @@ impl Rows {
         Ok(())
     }
 
-    fn append(&mut self, mut next: Self) {
+    /// Refuses words that rows follow.
+    pub fn refuse_words(&self) -> Result<(), Fault> {
+        self.below.first().map_or(Ok(()), |words| Err(words.fault()))
+    }
+
+    fn append(&mut self, mut next: Self) -> Result<(), Fault> {
+        if !next.positions.is_empty() || !next.counts.is_empty() {
+            self.refuse_words()?;
+        }
+        self.below.append(&mut next.below);
+        if self.below.len() > MOST_TITLES {
+            self.refuse_words()?;
+        }
         let before = self.positions.len() as u64;
         self.counts.extend(next.counts.iter().map(|&(at, count, rows)| (at, count, before + rows)));
         self.positions.append(&mut next.positions);
@@ -149,6 +190,7 @@ impl Rows {
         self.normals.append(&mut next.normals);
         self.radii.append(&mut next.radii);
         self.longer += next.longer;
+        Ok(())
     }
 
     /// Each number that stands alone is how many rows follow it.

@@ -1,3 +1,5 @@
+mod tables;
+
 use glam::{DVec3, Vec3};
 
 use super::*;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde::{Deserialize, de::DeserializeOwned};
+use serde_json::error::Category;
 use surfel::{Error, ErrorKind, Result, scene::Camera, small_file::read_small_file};
 
 /// More than any camera file holds: what is larger is something else.
@@ -22,25 +23,34 @@ pub struct CameraFile {
     pub near: Option<f64>,
 }
 
+/// What is expected of a file.
+const KIND: &str = "a camera file (see surfel render --help)";
+
 /// Reads a camera.
 ///
 /// # Errors
 /// A file that can't be read or is no camera, with its line.
 pub fn read(path: &Path) -> Result<Camera> {
-    let text = read_small_file(path, MAX_FILE_BYTES, "a camera file (see surfel render --help)")?;
-    let file: CameraFile = parse(path, &text)?;
+    let text = read_small_file(path, MAX_FILE_BYTES, KIND)?;
+    let file: CameraFile = parse(path, &text, KIND)?;
     file.camera().map_err(|(key, problem)| Error::input(path, key, problem))
 }
 
-/// JSON of a known form.
+/// JSON of a known form: that of `kind`.
 ///
 /// # Errors
 /// What is not of that form, with its line.
-pub fn parse<T: DeserializeOwned>(path: &Path, text: &[u8]) -> Result<T> {
+pub fn parse<T: DeserializeOwned>(path: &Path, text: &[u8], kind: &str) -> Result<T> {
     serde_json::from_slice(text).map_err(|e| {
         let (line, column) = (e.line(), e.column());
         let problem = e.to_string();
         let problem = problem.strip_suffix(&format!(" at line {line} column {column}")).unwrap_or(&problem);
+        let is_json = matches!(e.classify(), Category::Data);
+        let problem = if is_json {
+            problem.to_owned()
+        } else {
+            format!("{problem}, which is no JSON; expected {kind}")
+        };
         Error::input(path, format!("line {line}, column {column}"), problem)
     })
 }

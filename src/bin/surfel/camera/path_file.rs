@@ -14,6 +14,9 @@ use super::file::CameraFile;
 /// More than any path takes that somebody made: what is larger is something else.
 const MAX_FILE_BYTES: u64 = 1 << 24;
 
+/// What is expected of a file.
+const KIND: &str = "a path of cameras (see surfel render --help)";
+
 /// The only version.
 const VERSION: u32 = 1;
 
@@ -48,8 +51,8 @@ fn smooth() -> String {
 /// # Errors
 /// A file that can't be read or is no path, with its line or the number of its camera.
 pub fn read(path: &Path) -> Result<CameraPath> {
-    let text = read_small_file(path, MAX_FILE_BYTES, "a path of cameras (see surfel render --help)")?;
-    let file: PathFile = super::file::parse(path, &text)?;
+    let text = read_small_file(path, MAX_FILE_BYTES, KIND)?;
+    let file: PathFile = super::file::parse(path, &text, KIND)?;
     let fault = |place: &str, problem: String| Error::input(path, place, problem);
     if file.version != VERSION {
         return Err(fault("version", format!("{}: expected {VERSION}", file.version)));

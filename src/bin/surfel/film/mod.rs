@@ -15,7 +15,7 @@ use surfel::{
     Error, Progress as _, Result,
     load::PointOctree,
     renderer::Headless,
-    scene::{Camera, OptionTable as _, OptionValue as _, Settings},
+    scene::{Camera, CameraPath, OptionTable as _, OptionValue as _, Settings},
 };
 
 pub use arguments::{FPS, FilmArguments};
@@ -74,12 +74,21 @@ impl Output {
     }
 }
 
-/// The cameras of a film. `base` is that of a picture, which a turntable carries around.
+/// The path of the cameras, where a file has it.
 ///
 /// # Errors
-/// A path that can't be read; as `base`; more pictures than a film has.
+/// A file that can't be read, or is no path.
+pub fn path(arguments: &FilmArguments) -> Result<Option<CameraPath>> {
+    arguments.path.as_deref().map(read_path).transpose()
+}
+
+/// The cameras of a film, on its path. `base` is that of a picture, which a turntable carries around where there is none.
+///
+/// # Errors
+/// As `base`; more pictures than a film has.
 pub fn shots(
     arguments: &FilmArguments,
+    path: Option<&CameraPath>,
     frames: Option<u32>,
     base: impl FnOnce() -> Result<Camera>,
 ) -> Result<Vec<Camera>> {
@@ -91,8 +100,7 @@ pub fn shots(
         }
         None => Ok(((secs * fps).round() + more).max(1.0) as u64),
     };
-    if let Some(path) = &arguments.path {
-        let path = read_path(path)?;
+    if let Some(path) = path {
         let [start, end] = path.times();
         let count = count(end - start, 1.0)?;
         // Both ends are shown.
