@@ -67,6 +67,11 @@ impl Viewer {
             }
             WindowEvent::Occluded(false) => self.changed(),
             WindowEvent::DroppedFile(path) => {
+                if self.reads_first {
+                    let name = surfel::load::file_name(&path);
+                    self.ui.tell(&format!("{name} comes once the first files are read"));
+                    self.window.request_redraw();
+                }
                 self.files.drop_one(path);
             }
             WindowEvent::CursorMoved { position, .. } => self.cursor([position.x, position.y]),

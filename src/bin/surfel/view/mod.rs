@@ -23,6 +23,7 @@ mod live;
 mod loading;
 mod memory;
 mod navigation;
+mod news;
 mod on_device;
 mod options;
 mod overlay;
@@ -38,6 +39,7 @@ mod redraw;
 mod refine;
 mod show;
 mod things;
+mod told;
 mod ui;
 mod values;
 mod viewer;
@@ -130,7 +132,7 @@ pub fn run(arguments: &ViewArguments) -> Result<()> {
     let camera = CameraChoice::of(&arguments.camera)?;
     let path = arguments.path.as_deref().map(path::Path::read).transpose()?.unwrap_or_default();
     display::check()?;
-    let events = EventLoop::<loading::News>::with_user_event()
+    let events = EventLoop::<told::News>::with_user_event()
         .build()
         .map_err(|error| ErrorKind::NoWindow { reason: display::explain(&error.to_string()) })?;
     let mut app = app::App::new(arguments, settings, (camera, path), events.create_proxy());

@@ -11,7 +11,8 @@ use super::{
     edits::{Edits, things},
     history::History,
     keys::{Action, Comparing, Cutting, Step},
-    loading, values,
+    told::Step as Prepared,
+    values,
     viewer::Viewer,
 };
 
@@ -60,9 +61,9 @@ impl State {
         if let Some(prepared) = &viewer.prepared {
             let scene = prepared.scene();
             let how = match prepared.step() {
-                loading::Step::Part => " (a part for now)",
-                loading::Step::Whole => "",
-                loading::Step::Leveled => " (in levels)",
+                Prepared::Part => " (a part for now)",
+                Prepared::Whole => "",
+                Prepared::Leveled => " (in levels)",
             };
             facts.push(("splats", format!("{}{how}", scene.splat_count())));
             if let Some(drawn) = viewer.splats_drawn.filter(|drawn| *drawn > 0) {

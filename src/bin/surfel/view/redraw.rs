@@ -13,13 +13,13 @@ use super::{
     document::Document,
     frame_desc::{Drawn, FrameDesc, SceneView},
     keys::Comparing,
-    loading::Step,
     on_device::{OnDevice, Paged},
     overlay::OverlayFrame,
     picture::Use,
     printed,
     refine::Refinement,
     show::{ShowDesc, Shown},
+    told::Step,
     viewer::Viewer,
 };
 use crate::console;
