@@ -36,6 +36,10 @@ impl Viewer {
     pub fn act(&mut self, action: Action) -> Result<()> {
         let window_px = self.window_px();
         let begun = Instant::now();
+        self.window.request_redraw();
+        if self.anchor.holds(action) {
+            return Ok(());
+        }
         match action {
             Action::Quit => self.ends = true,
             Action::Panel => {
@@ -93,7 +97,6 @@ impl Viewer {
         if self.is_stale {
             self.input_at = Some(begun);
         }
-        self.window.request_redraw();
         Ok(())
     }
 

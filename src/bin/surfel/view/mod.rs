@@ -2,6 +2,7 @@
 //! picture is (`pace`), the thread that reads files (`loading`), the window's device (`device`, `gpu` and the files it names), what lies over the
 //! picture (`ui`, `panel`, `popups`), and the window itself (`app`, `viewer`, `redraw`, `refine`, `recover`, `input`, `files`, `changes`, `things`, `picking`, `path`, `capture`).
 
+mod anchor;
 mod app;
 mod bars;
 mod capture;

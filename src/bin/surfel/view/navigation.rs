@@ -70,14 +70,20 @@ impl Navigation {
         self.shift((up * dy - right * dx) * unit);
     }
 
-    /// Moves nearer to what is under the cursor, or away from it: `factor` is the new distance over the old one.
-    pub fn zoom(&mut self, factor: f64, cursor_px: [f64; 2], window_px: [u32; 2]) {
+    /// Moves nearer to the surface that is under the cursor, or away from it: `factor` is the new distance over the old one. Where there is none, to what is there at the
+    /// target's distance.
+    pub fn zoom(
+        &mut self,
+        factor: f64,
+        (cursor_px, surface): ([f64; 2], Option<DVec3>),
+        window_px: [u32; 2],
+    ) {
         let distance = self.distance();
         let [least, most] = DISTANCES.map(|radii| radii * self.ball.radius.max(f64::MIN_POSITIVE));
         let least = least.max(1e3 * f64::EPSILON * self.camera.target.abs().max_element());
         let shown = self.camera.orthographic_height.unwrap_or(distance);
         let factor = (shown * factor).clamp(least.min(shown), most.max(shown)) / shown;
-        let anchor = self.at(cursor_px, window_px, distance);
+        let anchor = surface.unwrap_or_else(|| self.at(cursor_px, window_px, distance));
         match &mut self.camera.orthographic_height {
             Some(height) => {
                 *height *= factor;

@@ -36,10 +36,12 @@ const TIDY: Duration = Duration::from_millis(500);
 impl Viewer {
     /// When there is something to do without an event.
     pub fn next_wake(&mut self, now: Instant) -> Option<Instant> {
-        let rest = self.moved.map(|moved| moved + REST);
+        let rest = self.moved.filter(|_| !self.anchor.waits()).map(|moved| moved + REST);
         let refines = self.refines.filter(|_| self.moved.is_none());
         let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies];
-        let all = [rest, self.files.next_look(), self.ui.next_wake()].into_iter().chain(looks);
+        let all = [rest, self.anchor.next_look(now), self.files.next_look(), self.ui.next_wake()]
+            .into_iter()
+            .chain(looks);
         all.flatten().min().map(|when| when.max(now))
     }
 
@@ -47,10 +49,14 @@ impl Viewer {
     pub fn wake(&mut self) {
         let now = Instant::now();
         self.look_at_files();
-        let rests = self.moved.is_some_and(|moved| now >= moved + REST);
+        // Errors, such as a lost device, come with the next frame, too.
+        if self.hear_anchor().is_err() {
+            self.window.request_redraw();
+        }
+        let rests = !self.anchor.waits() && self.moved.is_some_and(|moved| now >= moved + REST);
         let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
         if is_due(self.tidies) {
-            // Errors, such as a lost device, come with the next frame, too.
+            // As above.
             let rests = self.moved.is_none() && self.gpu.is_idle().unwrap_or(true);
             self.tidies = (!rests).then(|| now + TIDY);
             if rests {
@@ -61,6 +67,7 @@ impl Viewer {
                 if self.ui.shows_times() && self.splats_drawn.is_none() && !self.is_stale {
                     let _ = self.count_drawn();
                 }
+                self.look_under_cursor();
             }
         }
         let pages = self.prepared.as_ref().and_then(OnDevice::pages);
@@ -81,10 +88,13 @@ impl Viewer {
     /// # Errors
     /// As [`super::gpu::Gpu::draw`].
     pub fn redraw(&mut self) -> Result<()> {
+        self.hear_anchor()?;
         self.fly();
         self.play();
         let now = Instant::now();
-        let is_moving = self.input.flies() || self.moved.is_some_and(|moved| now < moved + REST);
+        let is_moving = self.input.flies()
+            || self.anchor.waits()
+            || self.moved.is_some_and(|moved| now < moved + REST);
         if !is_moving {
             self.moved = None;
         }

@@ -7,7 +7,7 @@ use surfel::scene::{Camera, Encoding, Samples, Settings};
 use winit::window::Window;
 
 use super::{
-    ViewArguments, capture::Clipboard, document::Document, edits::Edits, files::Files,
+    ViewArguments, anchor::Anchor, capture::Clipboard, document::Document, edits::Edits, files::Files,
     gpu::Gpu, input::Input, keys::Comparing, loading::Loader, navigation::Navigation, on_device::OnDevice,
     options::Options, pace::Pace, path::Path, picture::Use, ui::Ui,
 };
@@ -48,6 +48,8 @@ pub struct Viewer {
     pub comparing: Option<Comparing>,
     pub split: f32,
     pub clipboard: Clipboard,
+    /// What the wheel goes toward.
+    pub anchor: Anchor,
     /// The point that was measured last.
     pub measured: Option<DVec3>,
     pub options: Options,
@@ -125,6 +127,7 @@ impl Viewer {
             comparing: None,
             split: 0.5,
             clipboard: Clipboard::default(),
+            anchor: Anchor::default(),
             measured: None,
             pace: Pace::default(),
             moved: None,
@@ -162,6 +165,7 @@ impl Viewer {
     /// Something that the picture shows has changed, other than by a camera that moves on.
     pub fn changed(&mut self) {
         (self.is_stale, self.is_unsure) = (true, true);
+        self.anchor.forget();
         self.window.request_redraw();
     }
 

@@ -33,11 +33,27 @@ fn what_is_under_the_cursor_stays_there_while_zooming_and_follows_while_panning(
         let distance = navigation.distance();
         let point = navigation.at([77.0, 210.0], WINDOW_PX, distance);
         assert_near(place_px(&navigation, point), [77.0, 210.0]);
-        navigation.zoom(0.4, [77.0, 210.0], WINDOW_PX);
+        navigation.zoom(0.4, ([77.0, 210.0], None), WINDOW_PX);
         assert_near(place_px(&navigation, point), [77.0, 210.0]);
         navigation.set_pivot(point);
         navigation.pan([10.0, -5.0], WINDOW_PX);
         assert_near(place_px(&navigation, point), [87.0, 205.0]);
+    }
+}
+
+#[test]
+fn the_surface_under_the_cursor_stays_there_and_is_never_passed() {
+    let mut navigation = start();
+    navigation.orbit([31.0, 17.0], WINDOW_PX);
+    let (cursor, depth) = ([77.0, 210.0], 0.3 * navigation.distance());
+    let surface = navigation.at(cursor, WINDOW_PX, depth);
+    let mut before = navigation.camera.eye.distance(surface);
+    for _ in 0..60 {
+        navigation.zoom(0.8, (cursor, Some(surface)), WINDOW_PX);
+        assert_near(place_px(&navigation, surface), cursor);
+        let now = navigation.camera.eye.distance(surface);
+        assert!((now / before - 0.8).abs() < 1e-3, "{now} of {before}");
+        before = now;
     }
 }
 
@@ -125,7 +141,7 @@ fn no_zoom_and_no_flight_ends_in_a_camera_without_a_picture() {
         }
         for factor in [0.5, 2.0] {
             for _ in 0..200 {
-                navigation.zoom(factor, [3.0, 299.0], WINDOW_PX);
+                navigation.zoom(factor, ([3.0, 299.0], None), WINDOW_PX);
                 navigation.fly([0.1, -0.1, 0.3]);
                 navigation.camera.validate().unwrap();
             }
