@@ -50,11 +50,12 @@ impl Viewer {
             Action::Keys => self.ui.toggle_keys(),
             Action::Close => self.ui.close(),
             Action::Home | Action::Fit | Action::See(_) | Action::Turns | Action::NextUp => {
-                let Some(navigation) = &mut self.navigation else { return Ok(()) };
+                let seen = self.document.as_ref().map(|document| document.ball_of_seen(&self.edits));
+                let (Some(navigation), Some(seen)) = (&mut self.navigation, seen) else { return Ok(()) };
                 match action {
                     Action::Home => navigation.go_home(),
-                    Action::Fit => navigation.fit(window_px),
-                    Action::See(view) => navigation.see_from(view, window_px),
+                    Action::Fit => navigation.fit(&seen, window_px),
+                    Action::See(view) => navigation.see_from(view, &seen, window_px),
                     Action::NextUp => self.ui.tell(&format!("{} is up", navigation.next_axis())),
                     _ => navigation.is_free = !navigation.is_free,
                 }

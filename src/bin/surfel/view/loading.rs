@@ -21,6 +21,7 @@ use winit::event_loop::EventLoopProxy;
 use super::{
     document::Document,
     edits::{Edits, part_of},
+    extents,
     told::{News, Prepared, Step},
 };
 use crate::{
@@ -190,7 +191,8 @@ impl Worker {
         scene.storage = *storage;
         (scene.budget, scene.levels) = (*budget, *budget);
         scene.numbered = true;
-        Ok(Document { scene: Arc::new(scene), ball, camera, picture, inputs, files, paged })
+        let balls = extents::balls(&mut scene);
+        Ok(Document { scene: Arc::new(scene), ball, balls, camera, picture, inputs, files, paged })
     }
 
     /// Step by step, until another job comes.

@@ -12,6 +12,7 @@ mod device;
 mod display;
 mod document;
 mod edits;
+mod extents;
 mod files;
 mod frame;
 mod frame_desc;

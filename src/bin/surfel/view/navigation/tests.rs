@@ -97,10 +97,10 @@ fn a_turntable_keeps_its_axis_upright_and_stops_at_the_poles() {
 fn presets_are_sides_of_the_scene_whatever_is_up() {
     let mut navigation = start();
     let direction = |n: &Navigation| (n.camera.eye - n.camera.target).normalize();
-    navigation.see_from(View::Right, WINDOW_PX);
+    navigation.see_from(View::Right, &start().ball, WINDOW_PX);
     assert!(direction(&navigation).distance(DVec3::X) < 1e-12);
     navigation.set_axis(DVec3::Z);
-    navigation.see_from(View::Top, WINDOW_PX);
+    navigation.see_from(View::Top, &start().ball, WINDOW_PX);
     assert!(direction(&navigation).distance(DVec3::Z) < 1e-12);
     // From the pole, too, a turntable goes on.
     let right = navigation.axes()[0];
@@ -114,7 +114,7 @@ fn presets_are_sides_of_the_scene_whatever_is_up() {
 #[test]
 fn each_axis_is_up_in_its_turn_but_those_that_the_camera_looks_along() {
     let mut navigation = start();
-    navigation.see_from(View::Front, WINDOW_PX);
+    navigation.see_from(View::Front, &start().ball, WINDOW_PX);
     let names: Vec<_> = (0..5).map(|_| navigation.next_axis()).collect();
     assert_eq!(names, ["-x", "-y", "x", "y", "-x"]);
     assert_eq!(navigation.camera.up, DVec3::NEG_X);
@@ -146,7 +146,7 @@ fn no_zoom_and_no_flight_ends_in_a_camera_without_a_picture() {
                 navigation.camera.validate().unwrap();
             }
         }
-        navigation.fit(WINDOW_PX);
+        navigation.fit(&start().ball, WINDOW_PX);
         assert!((navigation.camera.target - navigation.ball.center).length() < 1e-12);
     }
 }
