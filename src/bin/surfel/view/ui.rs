@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use egui::{Event, PointerButton, Pos2, RawInput, Rect, ViewportId};
+use egui::{Event, PointerButton, Popup, Pos2, RawInput, Rect, ViewportId};
 use surfel::Result;
 use winit::{
     event::{ElementState, KeyEvent, MouseButton},
@@ -92,6 +92,7 @@ impl Ui {
     /// Shows or hides the panel.
     pub fn toggle_panel(&mut self) {
         self.has_panel = !self.has_panel;
+        Popup::close_all(&self.context);
     }
 
     /// Shows or hides the keys.
@@ -99,8 +100,12 @@ impl Ui {
         self.has_keys = !self.has_keys;
     }
 
-    /// Hides all of it.
+    /// Closes the list that is open; without one, hides all of it.
     pub fn close(&mut self) {
+        if self.has_panel && Popup::is_any_open(&self.context) {
+            Popup::close_all(&self.context);
+            return;
+        }
         (self.has_panel, self.has_keys) = (false, false);
         self.messages.clear();
     }
@@ -262,5 +267,26 @@ impl Viewer {
         self.gpu.update_overlay(&textures)?;
         changes.into_iter().try_for_each(|change| self.change(change))?;
         Ok(Some(frame))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escape_closes_an_open_list_before_the_panel() {
+        let mut ui = Ui::new(1.0);
+        ui.toggle_panel();
+        Popup::open_id(&ui.context, egui::Id::new("list"));
+        ui.close();
+        assert!(ui.has_panel && !Popup::is_any_open(&ui.context));
+        ui.close();
+        assert!(!ui.has_panel);
+        // A panel that is hidden with its list comes back without.
+        ui.toggle_panel();
+        Popup::open_id(&ui.context, egui::Id::new("list"));
+        ui.toggle_panel();
+        assert!(!Popup::is_any_open(&ui.context));
     }
 }
