@@ -52,8 +52,24 @@ pub fn messages(context: &Context, reading: Option<&str>, texts: &[&str]) {
     });
 }
 
-/// What the colors of differences mean, in steps of 8 bits: those of `glsl/view_show.frag.glsl`.
-pub fn color_bar(context: &Context) {
+/// Which of two pictures is where.
+pub fn compared(context: &Context, labels: &[(Align2, String)]) {
+    for (number, (align, text)) in labels.iter().enumerate() {
+        let inward = -align.to_sign().x;
+        // Beside the panel, not below it.
+        let panel = context.content_rect().right() - context.available_rect().right();
+        let x = 12.0 * inward - 0.5 * (1.0 - inward) * panel;
+        // Beside each other, or as wide as the window.
+        let width = context.available_rect().width() / labels.len() as f32 - 48.0;
+        popup(context, &format!("compared {number}"), (*align, [x, 12.0]), |ui| {
+            ui.set_max_width(width.max(1.0));
+            ui.label(text);
+        });
+    }
+}
+
+/// Which pictures differ, and what the colors of differences mean, in steps of 8 bits: those of `glsl/view_show.frag.glsl`.
+pub fn color_bar(context: &Context, label: &str) {
     const RAMP: [Color32; 6] = [
         Color32::BLACK,
         Color32::from_rgb(0, 0, 255),
@@ -63,6 +79,7 @@ pub fn color_bar(context: &Context) {
         Color32::WHITE,
     ];
     popup(context, "color bar", (Align2::CENTER_TOP, [0.0, 12.0]), |ui| {
+        ui.add(Label::new(label).extend());
         ui.add(Label::new("difference, in steps of 8 bits").extend());
         let (response, painter) = ui.allocate_painter(Vec2::new(270.0, 34.0), egui::Sense::hover());
         let bar = response.rect.shrink2(Vec2::new(10.0, 0.0));

@@ -13,11 +13,12 @@ use winit::{
 };
 
 use super::{
+    compared::labels,
     history::History,
     keys::Comparing,
     overlay::OverlayFrame,
-    panel::{self, Change, State},
-    popups,
+    panel, popups,
+    state::{Change, State},
     viewer::Viewer,
 };
 
@@ -237,8 +238,11 @@ impl Ui {
             }
             let compiling = self.is_compiling.then_some("compiling shaders");
             popups::messages(context, self.reading.as_deref().or(compiling), &texts);
-            if state.shows_difference {
-                popups::color_bar(context);
+            if let Some((how, names)) = &state.compared {
+                match (how, &labels(*how, names)[..]) {
+                    (Comparing::Difference, [(_, label)]) => popups::color_bar(context, label),
+                    (_, labels) => popups::compared(context, labels),
+                }
             }
         });
         self.has_keyboard = self.context.wants_keyboard_input();
@@ -256,7 +260,7 @@ impl Viewer {
     /// # Errors
     /// Of the device.
     pub fn run_ui(&mut self) -> Result<Option<OverlayFrame>> {
-        if !self.ui.is_shown() && self.comparing != Some(Comparing::Difference) {
+        if !self.ui.is_shown() && self.comparing.is_none() {
             // What was to be drawn again is not there any more.
             self.ui.wakes = None;
             return Ok(None);
