@@ -37,7 +37,7 @@ impl Viewer {
         let window_px = self.window_px();
         let begun = Instant::now();
         self.window.request_redraw();
-        if self.anchor.holds(action) {
+        if self.anchor.holds(action) || self.tells_why_not(action) {
             return Ok(());
         }
         match action {
@@ -82,7 +82,11 @@ impl Viewer {
             }
             Action::SplatScale(by) => {
                 let [least, most] = SPLAT_SCALES;
-                let scale = (self.edits.splat_scale * by as f32).clamp(least, most);
+                let now = self.edits.splat_scale;
+                let scale = (now * by as f32).clamp(least, most);
+                if scale == now {
+                    self.ui.tell(&format!("splats {scale:.2} times as large: as far as it goes"));
+                }
                 self.set_splat_scale(scale);
             }
             Action::Screenshot => self.write_picture(),
@@ -163,20 +167,24 @@ impl Viewer {
     fn step_setting(&mut self, name: &str, step: keys::Step) {
         let accept = |settings: &Settings| self.check(settings);
         let Some(settings) = values::stepped(&self.settings, name, step, accept) else { return };
-        if let Some(setting) = values::setting(name) {
-            self.ui.tell(&format!("{name}: {}", (setting.get)(&settings)));
-        }
         self.set(settings);
+        if let Some(setting) = values::setting(name) {
+            let drawn = self.drawn_edges().filter(|_| name == "edges");
+            let drawn = drawn.map_or(String::new(), |drawn| format!(" ({drawn} by this method)"));
+            self.ui.tell(&format!("{name}: {}{drawn}", (setting.get)(&self.settings)));
+        }
     }
 
     fn add_layers(&mut self, by: i64) {
         let (Layers::Fixed(layers) | Layers::Auto(layers)) = self.settings.layers;
+        let before = layers;
         let layers = (i64::from(layers) + by).clamp(1, i64::from(MOST_LAYERS)) as u32;
+        let end = if layers == before { ": as far as it goes" } else { "" };
         let layers = match self.settings.layers {
             Layers::Fixed(_) => Layers::Fixed(layers),
             Layers::Auto(_) => Layers::Auto(layers),
         };
-        self.ui.tell(&format!("layers: {}", layers.word()));
+        self.ui.tell(&format!("layers: {}{end}", layers.word()));
         self.set(Settings { layers, ..self.settings.clone() });
     }
 

@@ -37,6 +37,7 @@ mod picking;
 mod picture;
 mod popups;
 mod printed;
+mod reasons;
 mod recover;
 mod redraw;
 mod refine;

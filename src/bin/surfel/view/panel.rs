@@ -92,7 +92,9 @@ fn method(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
         for setting in values::IN_PANEL.iter().filter_map(|name| values::setting(name)) {
             let now = (setting.get)(&state.settings);
             ui.label(setting.name).on_hover_text(setting.help.trim());
-            let list = ComboBox::from_id_salt(setting.name).selected_text(&now);
+            let drawn = state.drawn_edges.filter(|_| setting.name == "edges");
+            let shown = drawn.map_or(now.clone(), |drawn| format!("{now} ({drawn} here)"));
+            let list = ComboBox::from_id_salt(setting.name).selected_text(shown);
             let list = list.show_ui(ui, |ui| {
                 for value in values::values(setting) {
                     let help = setting.choices.iter().find(|choice| choice.name == value);

@@ -2,7 +2,7 @@
 
 use surfel::{
     Result,
-    scene::{Encoding, Settings, Tonemap},
+    scene::{Edges, Encoding, Settings, Tonemap},
 };
 
 use super::{
@@ -23,6 +23,8 @@ pub struct State {
     /// The one that keys change.
     pub thing: usize,
     pub facts: Vec<(&'static str, String)>,
+    /// The edges that are drawn, where they are not those of the settings.
+    pub drawn_edges: Option<&'static str>,
     /// How two methods are compared, if they are, and what they are called.
     pub compared: Option<(Comparing, [String; 2])>,
 }
@@ -78,12 +80,25 @@ impl State {
             things: viewer.document.as_ref().map(|document| things(&document.scene)).unwrap_or_default(),
             thing: viewer.thing,
             facts,
+            drawn_edges: viewer.drawn_edges(),
             compared: viewer.comparing.map(|how| (how, names([&viewer.settings, &viewer.other]))),
         }
     }
 }
 
 impl Viewer {
+    /// The edges of splats as they are drawn, where the method has not those that are asked for.
+    pub fn drawn_edges(&self) -> Option<&'static str> {
+        let (Some(camera), Some(prepared)) = (self.camera(), &self.prepared) else { return None };
+        let scene = prepared.scene();
+        if self.settings.edges != Edges::Coverage || scene.chunks().is_empty() {
+            return None;
+        }
+        let settings = self.at_rest(&Settings { size_px: self.window_px(), ..self.settings.clone() });
+        let covers = self.gpu.headless.renderer.covers_in_part(scene, &camera, &settings);
+        covers.is_ok_and(|covers| !covers).then_some("hard")
+    }
+
     /// Does what the panel asks for.
     ///
     /// # Errors
@@ -97,6 +112,7 @@ impl Viewer {
                 self.changed();
             }
             Change::Edits(edits) => self.edit(edits),
+            Change::SplatScale(_) if self.tells_why_not(Action::SplatScale(1.0)) => {}
             Change::SplatScale(scale) => self.set_splat_scale(scale),
             Change::Act(action) => self.act(action)?,
         }
