@@ -1,6 +1,8 @@
 //! The panel, the keys and the messages over the picture. Everything in the panel can be done by keys, too.
 
-use egui::{Color32, ComboBox, Context, Grid, Id, RichText, ScrollArea, Slider, Ui, Vec2};
+use egui::{
+    Align, Color32, ComboBox, Context, Grid, Id, Label, Layout, RichText, ScrollArea, Slider, Ui, Vec2,
+};
 use surfel::scene::{Layers, MOST_LAYERS, Settings, Tonemap};
 
 use super::{
@@ -20,10 +22,18 @@ pub fn visuals() -> egui::Visuals {
     visuals
 }
 
+/// How wide the panel is, whatever is in it.
+const WIDTH: f32 = 330.0;
+/// Lists are as tall as the longest of them, and as wide as its longest value.
+const LIST: f32 = 400.0;
+const LIST_WIDTH: f32 = 180.0;
+/// Columns of the passes and their times.
+const COLUMNS: [f32; 3] = [160.0, 72.0, 60.0];
+
 /// The panel.
 pub fn show(context: &Context, state: &State, history: &History, changes: &mut Vec<Change>) {
-    egui::SidePanel::right("panel").default_width(300.0).show(context, |ui| {
-        ScrollArea::vertical().show(ui, |ui| {
+    egui::SidePanel::right("panel").exact_width(WIDTH).resizable(false).show(context, |ui| {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.heading("Scene");
             scene(ui, state, changes);
             ui.separator();
@@ -41,7 +51,8 @@ pub fn show(context: &Context, state: &State, history: &History, changes: &mut V
             Grid::new("facts").num_columns(2).show(ui, |ui| {
                 for (name, value) in &state.facts {
                     ui.label(*name);
-                    ui.label(value);
+                    // What is too long for it is seen under the cursor.
+                    ui.add(Label::new(value).truncate());
                     ui.end_row();
                 }
             });
@@ -61,7 +72,7 @@ fn scene(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
         let mut shown = dragged.unwrap_or(alpha);
         ui.horizontal(|ui| {
             ui.add_space(22.0);
-            let slider = ui.add(Slider::new(&mut shown, 0.05..=1.0).text("alpha"));
+            let slider = ui.add(percent(Slider::new(&mut shown, 0.05..=1.0)).text("of its alpha"));
             if slider.drag_stopped() || (slider.changed() && !slider.dragged()) {
                 (alpha, changed) = (shown, true);
                 ui.data_mut(|data| data.remove::<f32>(key));
@@ -78,7 +89,8 @@ fn scene(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
     let key = Id::new("splat scale");
     let dragged: Option<f32> = ui.data(|data| data.get_temp(key));
     let mut scale = dragged.unwrap_or(state.edits.splat_scale);
-    let slider = ui.add(Slider::new(&mut scale, 0.1..=10.0).logarithmic(true).text("splat scale"));
+    let slider =
+        ui.add(Slider::new(&mut scale, 0.1..=10.0).logarithmic(true).max_decimals(2).text("splat scale"));
     if slider.drag_stopped() || (slider.changed() && !slider.dragged()) {
         changes.push(Change::SplatScale(scale));
         ui.data_mut(|data| data.remove::<f32>(key));
@@ -94,7 +106,8 @@ fn method(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
             ui.label(setting.name).on_hover_text(setting.help.trim());
             let drawn = state.drawn_edges.filter(|_| setting.name == "edges");
             let shown = drawn.map_or(now.clone(), |drawn| format!("{now} ({drawn} here)"));
-            let list = ComboBox::from_id_salt(setting.name).selected_text(shown);
+            let list =
+                ComboBox::from_id_salt(setting.name).selected_text(shown).height(LIST).width(LIST_WIDTH);
             let list = list.show_ui(ui, |ui| {
                 for value in values::values(setting) {
                     let help = setting.choices.iter().find(|choice| choice.name == value);
@@ -154,7 +167,7 @@ fn cuts(ui: &mut Ui, changes: &mut Vec<Change>) {
 
 fn light(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
     let mut stops = state.encoding.exposure.0;
-    if ui.add(Slider::new(&mut stops, -8.0..=8.0).text("exposure, stops")).changed() {
+    if ui.add(Slider::new(&mut stops, -8.0..=8.0).max_decimals(2).text("exposure, stops")).changed() {
         changes.push(Change::Exposure(stops));
     }
     ui.horizontal(|ui| {
@@ -167,18 +180,35 @@ fn light(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
     });
 }
 
-fn cost(ui: &mut Ui, history: &History) {
-    let width = ui.available_width().min(400.0);
-    let most = bars(ui, Vec2::new(width, 48.0), &history.frames);
-    if let Some(last) = history.frames.back() {
-        ui.label(format!("frame {last:.2} ms; the tallest of these {most:.2} ms"));
-    }
-    Grid::new("passes").num_columns(3).striped(true).show(ui, |ui| {
-        for (name, times) in history.passes() {
-            ui.label(name);
-            ui.label(times.back().map_or(String::new(), |ms| format!("{ms:.3} ms")));
-            bars(ui, Vec2::new(60.0, 14.0), times);
-            ui.end_row();
-        }
-    });
+/// Shares in percent.
+fn percent(slider: Slider<'_>) -> Slider<'_> {
+    slider.custom_formatter(|share, _| format!("{:.0}%", 100.0 * share)).custom_parser(|text| {
+        text.trim().trim_end_matches('%').parse::<f64>().ok().map(|percent| percent / 100.0)
+    })
 }
+
+fn cost(ui: &mut Ui, history: &History) {
+    let most = bars(ui, Vec2::new(ui.available_width(), 48.0), &history.frames);
+    if let Some(last) = history.frames.back() {
+        ui.add(Label::new(format!("frame {last:.2} ms; the tallest {most:.2} ms")).truncate());
+    }
+    // Not a grid: that knows how wide its columns are only a frame after their texts have come.
+    for (name, times) in history.passes() {
+        ui.horizontal(|ui| {
+            let ms = times.back().map_or(String::new(), |ms| format!("{ms:.3} ms"));
+            let texts = [name.to_owned(), ms];
+            for (text, width) in texts.into_iter().zip(COLUMNS) {
+                let left = Layout::left_to_right(Align::Center);
+                let size = Vec2::new(width, ui.spacing().interact_size.y);
+                ui.allocate_ui_with_layout(size, left, |ui| {
+                    ui.set_min_width(width);
+                    ui.add(Label::new(text).truncate());
+                });
+            }
+            bars(ui, Vec2::new(COLUMNS[2], 14.0), times);
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -13,18 +13,19 @@ fn popup(context: &Context, name: &str, (align, offset): (Align2, [f32; 2]), add
     area.show(context, |ui| frame.show(ui, add));
 }
 
-/// All keys, in as many columns as there is room for.
-pub fn keys(context: &Context) {
+/// All keys, in as many columns as there is room for; whether they have it from left to right.
+pub fn keys(context: &Context) -> bool {
     const COLUMN_POINTS: f32 = 480.0;
     let size = context.content_rect().size();
     let columns = ((size.x / COLUMN_POINTS) as usize).clamp(1, 3);
+    let mut has_room = false;
     popup(context, "keys", (Align2::CENTER_CENTER, [0.0; 2]), |ui| {
         ui.set_max_size(size - Vec2::splat(60.0));
-        ScrollArea::both().show(ui, |ui| {
+        let shown = ScrollArea::both().show(ui, |ui| {
             let of_keys = BINDINGS.iter().map(|binding| (binding.key, binding.help));
             let lines: Vec<(&str, &str)> = MOUSE.iter().copied().chain(of_keys).collect();
             let rows = lines.len().div_ceil(columns);
-            Grid::new("keys").num_columns(2 * columns).spacing([16.0, 3.0]).show(ui, |ui| {
+            Grid::new("keys").num_columns(2 * columns).spacing([12.0, 3.0]).show(ui, |ui| {
                 for row in 0..rows {
                     for (key, help) in lines.iter().skip(row).step_by(rows) {
                         ui.add(Label::new(RichText::new(*key).strong()).extend());
@@ -34,7 +35,9 @@ pub fn keys(context: &Context) {
                 }
             });
         });
+        has_room = shown.content_size.x <= shown.inner_rect.width();
     });
+    has_room
 }
 
 /// What is being read, and messages.
@@ -100,4 +103,24 @@ pub fn color_bar(context: &Context, label: &str) {
         }
         painter.add(mesh);
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_keys_have_room_in_windows_of_usual_widths() {
+        for width in [640.0, 1024.0, 1280.0, 1440.0, 1920.0] {
+            let context = Context::default();
+            let rect = egui::Rect::from_min_size(egui::Pos2::ZERO, Vec2::new(width, 768.0));
+            let mut has_room = false;
+            // What is laid out for the first time does not know its size yet.
+            for _ in 0..3 {
+                let input = egui::RawInput { screen_rect: Some(rect), ..Default::default() };
+                let _ = context.run(input, |context| has_room = keys(context));
+            }
+            assert!(has_room, "{width}");
+        }
+    }
 }
