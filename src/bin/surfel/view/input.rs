@@ -136,7 +136,8 @@ impl Viewer {
             return Ok(());
         }
         if !pressed {
-            if self.input.dragged.take().is_some() && self.moved.take().is_some() {
+            let drags = self.input.dragged.take().is_some();
+            if drags && !self.pace.waits() && self.moved.take().is_some() {
                 // The hand is off: what it moved rests.
                 self.window.request_redraw();
             }

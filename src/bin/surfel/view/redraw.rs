@@ -24,8 +24,6 @@ use super::{
 };
 use crate::console;
 
-/// The camera rests once it has not moved for so long.
-const REST: Duration = Duration::from_millis(25);
 /// How soon the cost of a frame is looked for again that is not done.
 const COST: Duration = Duration::from_millis(10);
 /// How soon pages are looked for again.
@@ -36,7 +34,7 @@ const TIDY: Duration = Duration::from_millis(500);
 impl Viewer {
     /// When there is something to do without an event.
     pub fn next_wake(&mut self, now: Instant) -> Option<Instant> {
-        let rest = self.moved.filter(|_| !self.anchor.waits()).map(|moved| moved + REST);
+        let rest = self.moved.filter(|_| !self.anchor.waits()).map(|moved| moved + self.pace.rest());
         let refines = self.refines.filter(|_| self.moved.is_none());
         let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies];
         let all = [rest, self.anchor.next_look(now), self.files.next_look(), self.ui.next_wake()]
@@ -53,7 +51,7 @@ impl Viewer {
         if self.hear_anchor().is_err() {
             self.window.request_redraw();
         }
-        let rests = !self.anchor.waits() && self.moved.is_some_and(|moved| now >= moved + REST);
+        let rests = !self.anchor.waits() && self.moved.is_some_and(|moved| now >= moved + self.pace.rest());
         let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
         if is_due(self.tidies) {
             // As above.
@@ -94,7 +92,7 @@ impl Viewer {
         let now = Instant::now();
         let is_moving = self.input.flies()
             || self.anchor.waits()
-            || self.moved.is_some_and(|moved| now < moved + REST);
+            || self.moved.is_some_and(|moved| now < moved + self.pace.rest());
         if !is_moving {
             self.moved = None;
         }
@@ -251,9 +249,10 @@ impl Viewer {
             for cost in costs.into_iter().filter(|_| which != Use::Other) {
                 // A picture at rest tells of moving ones where they are the same.
                 if is_moving && (which == Use::Moving || self.pace.is_finest()) {
-                    self.pace.learn(period.map_or(cost.secs, |period| period.as_secs_f64()));
+                    let secs = period.map_or(cost.secs, |period| period.as_secs_f64());
+                    self.pace.learn(secs, cost.compiles);
                 }
-                if cost.what == "whole" {
+                if cost.what == "whole" && !cost.compiles {
                     self.pace.learn_whole(cost.secs);
                 }
                 self.ui.history.push(&cost);
