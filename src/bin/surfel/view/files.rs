@@ -113,7 +113,7 @@ impl Files {
             let was_gone = std::mem::take(missed) >= GONE;
             if now != *known {
                 (*known, changes) = (now, true);
-                lines.push(format!("{name} has changed"));
+                lines.push(format!("{name} has changed and is read again"));
             } else if was_gone {
                 lines.push(format!("{name} is there again"));
             }
@@ -191,14 +191,18 @@ mod tests {
         let nothing = (false, String::new());
         assert!(files.watched.len() == 1 && look(&mut files) == nothing && files.next_look().is_some());
         std::fs::write(&path, "longer").unwrap();
-        assert_eq!(look(&mut files), (false, "a.ply has changed".to_owned()), "it may go on changing");
+        assert_eq!(
+            look(&mut files),
+            (false, "a.ply has changed and is read again".to_owned()),
+            "it may go on changing"
+        );
         std::fs::remove_file(&path).unwrap();
         assert_eq!(look(&mut files), (true, String::new()), "it may come again at once");
         let gone = "a.ply is not there any more; what is shown stays";
         assert_eq!(look(&mut files), (false, gone.to_owned()));
         assert_eq!(look(&mut files), nothing, "it is told once");
         std::fs::write(&path, "longer still").unwrap();
-        assert_eq!(look(&mut files), (false, "a.ply has changed".to_owned()));
+        assert_eq!(look(&mut files), (false, "a.ply has changed and is read again".to_owned()));
         assert_eq!(look(&mut files), (true, String::new()));
         // Away and back, the same as before.
         let away = folder.path().join("away");
