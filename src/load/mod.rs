@@ -61,6 +61,7 @@ pub use scene_file::{
     BuiltIn, MOST_BUILT_IN_SPLATS, MOST_OBJECTS, MOST_SCENE_FILE_BYTES, ObjectDescription,
     PictureDescription, Polygons, Representation, Samples, SceneFile, Source, is_scene_file, load_scene_file,
 };
+pub use source::check_there;
 pub use text::{Column, Columns};
 
 /// Reads a file whole, or standard input where the path is `-`: PLY, OBJ, rows of numbers (XYZ, PTS, PTX, CSV), PCD, OFF,

@@ -63,6 +63,22 @@ pub(super) fn unpacked(
     }
 }
 
+/// Refuses a file that is not there, or that nobody may read, as reading it would: before others are read, which may take long.
+///
+/// # Errors
+/// [`crate::ErrorKind::File`] with its name.
+pub fn check_there(path: &Path) -> Result<()> {
+    let fail = |e| Error::file(path, "read", e);
+    if path.as_os_str() == STANDARD_INPUT {
+        return Ok(());
+    }
+    // Opening a pipe would wait for who writes to it.
+    match fs::metadata(path).map_err(fail)?.is_file() {
+        true => File::open(path).map(drop).map_err(fail),
+        false => Ok(()),
+    }
+}
+
 /// Only regular files: a device or a pipe may never end, and counts are checked against the size.
 fn read_file(path: &Path) -> Result<Vec<u8>> {
     let refuse = |what: &str| Err(Error::input(path, "", format!("{what}; expected {}", sniff::expected())));

@@ -100,6 +100,12 @@ impl PreparedScene {
         self.device.as_ref().is_none_or(|own| own.is(device))
     }
 
+    /// Whether anything of it is transparent, so that it is drawn in layers.
+    pub fn is_transparent(&self) -> bool {
+        let splats = self.chunks.iter().any(|chunk| chunk.transparent);
+        splats || self.meshes.iter().any(|mesh| mesh.transparent)
+    }
+
     /// How many splats there are, without those that stand for others.
     pub fn splat_count(&self) -> u64 {
         let own = self.chunks.iter().filter(|chunk| !chunk.is_of_nodes());

@@ -7,7 +7,7 @@ use crate::{
     graph::{Access, PassKind, Plan, ResourceDesc},
     passes,
     prepare::{Placed, PreparedScene},
-    scene::{Budget, Camera, Lod, OptionValue as _, Settings},
+    scene::{Budget, Camera, Edges, Lod, OptionValue as _, Settings},
 };
 
 /// What a scene, a camera and settings made of a frame, and why. Lengths are in pixels, memory in bytes.
@@ -112,6 +112,24 @@ pub struct ExplainedUse {
 }
 
 impl Renderer {
+    /// Whether the surfaces of splats cover pixels in part where they end, as `--edges coverage` asks for: not by all methods, and not where splats are too large.
+    ///
+    /// # Errors
+    /// As [`Renderer::check`].
+    pub fn covers_in_part(
+        &self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<bool> {
+        let arena = Arena::new();
+        let frame = self.frame_plan(&arena, &[Placed::at_home(scene)], camera, settings)?;
+        let covers = |plan: &passes::plan::SurfacePlan<'_>| {
+            !plan.bands().is_empty() && plan.settings.edges == Edges::Coverage
+        };
+        Ok([&frame.opaque, &frame.transparent].into_iter().any(covers))
+    }
+
     /// Refuses settings that draw no levels of detail, of a scene that holds no more than some view of these needs
     /// ([`crate::scene::LeveledObject`]).
     ///

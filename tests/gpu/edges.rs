@@ -12,7 +12,7 @@ use surfel::{
     reference::ground_truth,
     renderer::{Headless, Wanted},
     scene::{
-        Colors, Edges, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshObject, Rasterizer, Settings,
+        Camera, Colors, Edges, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshObject, Rasterizer, Settings,
         Shading, TileInvocations, Transition,
     },
     selftest::{light::compare_light, tolerance::LIGHT},
@@ -254,4 +254,24 @@ fn silhouettes_are_several_times_nearer_to_the_truth_than_hard_ones() {
         println!("{count} splats, {side_px} px: {covering:.4?}, hard {crisp:.4?}");
         assert!(4.0 * covering[0] < crisp[0] && 3.0 * covering[1] < crisp[1], "{covering:?} {crisp:?}");
     }
+}
+
+/// What the window says of them.
+#[test]
+fn a_method_tells_whether_its_edges_cover_in_part() {
+    let headless = shared();
+    let hard = balls(2000);
+    let scene = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    for (rasterizer, edges, covers) in [
+        (Rasterizer::Compute, Edges::Coverage, true),
+        (Rasterizer::Compute, Edges::Hard, false),
+        (Rasterizer::Perspective, Edges::Coverage, false),
+    ] {
+        let settings = Settings { rasterizer, edges, ..hard.settings.clone() };
+        let told = headless.renderer.covers_in_part(&scene, &hard.camera, &settings).unwrap();
+        assert_eq!(told, covers, "{rasterizer:?}, {edges:?}");
+    }
+    // Splats that are too large for tiles have hard edges.
+    let near = Camera { eye: DVec3::new(0.0, 0.0, 1.0005), ..hard.camera };
+    assert!(!headless.renderer.covers_in_part(&scene, &near, &hard.settings).unwrap());
 }

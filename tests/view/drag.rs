@@ -1,6 +1,6 @@
 //! Files that are dragged from another program: the protocol XDND, version 5, as a file manager speaks it.
 
-use std::path::Path;
+use std::{io::Write as _, path::Path, process::Stdio};
 
 use x11rb::{
     COPY_DEPTH_FROM_PARENT, CURRENT_TIME,
@@ -13,6 +13,12 @@ use x11rb::{
         },
     },
     wrapper::ConnectionExt as _,
+};
+
+use super::{
+    CAMERA,
+    screen::Screen,
+    window::{Folder, View, render},
 };
 
 /// Drags files from a window of its own and drops them on another window, by its number.
@@ -93,4 +99,22 @@ pub fn is_aware(display: &str, target: u32) -> bool {
     let property =
         connection.get_property(false, target, aware, AtomEnum::ANY, 0, 1).unwrap().reply().unwrap();
     property.value_len > 0
+}
+
+/// The first is standard input, which ends when the test wants it.
+#[test]
+fn a_file_that_is_dropped_while_the_first_is_read_comes_behind_it() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    let words = |file| [&[file, "--size", "200x200"], &CAMERA[..]].concat();
+    let mut view = View::open_fed(&screen, &folder, &words("-"), (true, &[]), Stdio::piped());
+    let mut input = view.take_input();
+    drop_on(screen.name(), view.number(), &[&folder.path("a.ply")]);
+    input.write_all(b"ply\nno more").unwrap();
+    drop(input);
+    // What can't be read does not end the window: it has something else to show.
+    view.wait("it is told", |view| view.said().contains("standard input"));
+    screen.key("Escape");
+    view.wait_for(&render(&folder, &words("a.ply")));
+    view.end();
 }

@@ -11,6 +11,7 @@ mod random;
 mod rest;
 mod screen;
 mod soak;
+mod wheel;
 mod window;
 
 use std::time::Duration;

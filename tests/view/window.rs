@@ -3,7 +3,7 @@
 use std::{
     fs,
     path::PathBuf,
-    process::{Child, Command, Stdio},
+    process::{Child, ChildStdin, Command, Stdio},
     sync::{Arc, Mutex},
     thread::{self, JoinHandle},
     time::{Duration, Instant},
@@ -122,10 +122,22 @@ impl<'a> View<'a> {
         is_validated: bool,
         environment: &[(&str, &str)],
     ) -> Self {
+        Self::open_fed(screen, folder, words, (is_validated, environment), Stdio::null())
+    }
+
+    /// The same, with a standard input that is [taken](Self::take_input) and written.
+    pub fn open_fed(
+        screen: &'a Screen,
+        folder: &'a Folder,
+        words: &[&str],
+        (is_validated, environment): (bool, &[(&str, &str)]),
+        input: Stdio,
+    ) -> Self {
         let first: &[&str] = if is_validated { &["view", "--validate"] } else { &["view"] };
         let mut child = command(folder, &[first, words].concat())
             .env("DISPLAY", screen.name())
             .env_remove("WAYLAND_DISPLAY")
+            .stdin(input)
             .envs(environment.iter().copied())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -155,6 +167,11 @@ impl<'a> View<'a> {
             assert!(self.is_running(), "it ended: {what}; {}", self.stderr.lock().unwrap());
             thread::sleep(Duration::from_millis(20));
         }
+    }
+
+    /// Its standard input, which ends with this.
+    pub fn take_input(&mut self) -> ChildStdin {
+        self.child.stdin.take().unwrap()
     }
 
     pub fn is_running(&mut self) -> bool {

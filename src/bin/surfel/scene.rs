@@ -9,8 +9,8 @@ use surfel::{
     geometry::{FoundUp, up_of_shape},
     levels_file::LevelsFile,
     load::{
-        BuiltIn, Model, ObjectDescription, PictureDescription, Representation, Samples, Source, file_name,
-        is_scene_file, load_scene_file,
+        BuiltIn, Model, ObjectDescription, PictureDescription, Representation, Samples, Source, check_there,
+        file_name, is_scene_file, load_scene_file,
     },
     prepare::PreparedScene,
     renderer::Headless,
@@ -230,6 +230,11 @@ fn describe(inputs: &Inputs, bars: &Bars) -> Result<Described> {
             described.camera = Some(DescribedCamera { file: file.path, parts, object: file.camera_target });
         }
     }
+    let files = described.objects.iter().filter_map(|object| match &object.source {
+        Source::File(path) => Some(path),
+        _ => None,
+    });
+    files.map(PathBuf::as_path).try_for_each(check_there)?;
     Ok(described)
 }
 
@@ -255,6 +260,19 @@ mod tests {
         assert_eq!((report.vertices, report.triangles, report.splats), (Some(3), Some(1), 3));
         let with_normals = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n";
         assert!(load_text("a.obj", with_normals).unwrap().summary.ends_with("; radii computed"));
+    }
+
+    #[test]
+    fn a_file_that_is_missing_is_told_before_another_is_read() {
+        let folder = temp_dir::TempDir::new().unwrap();
+        let [broken, none] = ["broken.ply", "none.ply"].map(|name| folder.path().join(name));
+        fs::write(&broken, "ply\n").unwrap();
+        let told = |files: &[&PathBuf]| {
+            let files = files.iter().map(|path| (*path).clone()).collect();
+            load_scene(&Inputs::splats_of(files), &Bars::new()).err().unwrap().to_string()
+        };
+        assert_eq!(told(&[&broken, &none]), told(&[&none]));
+        assert_ne!(told(&[&broken, &none]), told(&[&broken]));
     }
 
     const SPLATS: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty \

@@ -3,10 +3,12 @@
 //! of triangles, by the equations of all others; the host takes the nearest of them, and finds its place along the pixel's ray in `f64` (`plan`).
 
 mod plan;
+mod ray;
 
 use bytemuck::{Pod, Zeroable};
 
 pub use plan::{PickPlan, Picked, PickedPart};
+pub use ray::PickRay;
 
 use crate::passes::{
     cull::{
@@ -56,7 +58,7 @@ pub(crate) fn pick<'a>(
     to: &mut Handle<Buffer>,
 ) -> Result<()> {
     const WHY: &str = "a pixel is picked";
-    let source = Source::new(place, &plan.camera).cut_by(planes);
+    let source = Source::new(place, &plan.ray.camera).cut_by(planes);
     let bytes: &[u8] = bytemuck::cast_slice(&plan.listed);
     let mut blocks = graph.create_buffer("picked blocks", BufferDesc::of_bytes(bytes.len() as u64));
     Pass::new(graph, source, "picked blocks", WHY)

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{NOTHING_MOVED, Nearest, RUN};
+use super::{Nearest, PickRay, RUN};
 use crate::passes::plan::{
     FramePlan, SurfacePlan,
     block_list::ListedBlocks,
@@ -26,11 +26,8 @@ pub struct PickPlan<'a> {
     pub(super) draws: Vec<Draw<'a>>,
     pub(super) meshes: Vec<MeshDraw<'a>>,
     pub(super) listed: Vec<u32>,
-    /// Sees the one pixel.
-    pub(super) camera: Camera,
-    /// Where the camera is.
-    eye: DVec3,
-    range: DepthRange,
+    /// Through the one pixel.
+    pub(super) ray: PickRay,
     planes: InlineVec<ShaderPlane, MOST_PLANES>,
     scene: &'a PreparedScene,
 }
@@ -110,7 +107,9 @@ impl<'a> PickPlan<'a> {
             first += runs_of(draw);
         }
         let planes = shader_planes((&camera, range), &settings);
-        Self { draws, meshes, listed, camera, eye, range, planes, scene }
+        let is_empty = draws.is_empty() && meshes.is_empty();
+        let ray = PickRay { camera, eye, range, is_empty };
+        Self { draws, meshes, listed, ray, planes, scene }
     }
 
     /// The planes that cut what is seen.
@@ -124,19 +123,14 @@ impl<'a> PickPlan<'a> {
         u64::from(records.max(1)) * size_of::<Nearest>() as u64
     }
 
+    /// The ray through the pixel, which outlives the scene.
+    pub fn ray(&self) -> PickRay {
+        self.ray
+    }
+
     /// What the device's answer means; `None` where nothing is seen. Of depths that are equal, the first one is taken.
     pub fn read(&self, answer: &[u8]) -> Option<Picked> {
-        let records = answer.chunks_exact(size_of::<Nearest>());
-        let nearest = |(found, best): (usize, Nearest), (place, record): (usize, &[u8])| {
-            let record: Nearest = bytemuck::pod_read_unaligned(record);
-            if record.moved > best.moved { (place, record) } else { (found, best) }
-        };
-        let nothing = Nearest { moved: NOTHING_MOVED, depth: 0.0, index: 0, unused: 0, normal: [0.0; 4] };
-        let anything = !(self.draws.is_empty() && self.meshes.is_empty());
-        let (place, record) = records.enumerate().filter(|_| anything).fold((0, nothing), nearest);
-        if record.moved <= NOTHING_MOVED {
-            return None;
-        }
+        let (place, record) = self.ray.nearest(answer)?;
         let place = place as u32;
         let index = record.index as usize;
         let of_mesh = self.meshes.iter().rfind(|draw| draw.constants.first_record <= place);
@@ -149,13 +143,13 @@ impl<'a> PickPlan<'a> {
                 (chunk.object, if chunk.is_of_nodes() { PickedPart::Node } else { splat })
             }
         };
-        let (position, depth) = self.place(record.depth.into());
-        let view_from_world = self.camera.view_from_world();
+        let (position, depth) = self.ray.place(record.depth.into());
+        let view_from_world = self.ray.camera.view_from_world();
         let [x, y, z, _] = record.normal.map(f64::from);
         Some(Picked {
             position,
             normal: (view_from_world.rotation.transpose() * DVec3::new(x, y, z)).normalize(),
-            distance: position.distance(self.eye),
+            distance: position.distance(self.ray.eye),
             depth,
             object,
             part,
@@ -165,25 +159,6 @@ impl<'a> PickPlan<'a> {
     /// The names of the scene's objects.
     pub fn object_name(&self, object: usize) -> &str {
         self.scene.objects.get(object).map_or("", String::as_str)
-    }
-
-    /// Where the pixel's ray has a reversed depth, in world space, and the depth there from the camera as it was given.
-    fn place(&self, reversed: f64) -> (DVec3, f64) {
-        let camera = &self.camera;
-        let focal_px = camera.focal_px(1);
-        let [x, y] = camera.middle_px([1; 2]).map(|middle| (0.5 - middle) / focal_px);
-        let (depth, at) = match camera.is_orthographic() {
-            true => {
-                let z = (1.0 - reversed) * self.range.end;
-                (self.range.from_eye + z, DVec3::new(x, y, z))
-            }
-            false => {
-                let z = camera.near() / reversed;
-                (z, z * DVec3::new(x, y, 1.0))
-            }
-        };
-        let view = camera.view_from_world();
-        (view.eye + view.rotation.transpose() * at, depth)
     }
 }
 

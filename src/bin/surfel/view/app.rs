@@ -17,8 +17,9 @@ use winit::{
 
 use super::{
     ViewArguments,
-    loading::{Loader, News, Wants},
+    loading::{Loader, Wants},
     path::Path,
+    told::News,
     viewer::Viewer,
 };
 use crate::camera::CameraChoice;

@@ -53,6 +53,28 @@ pub fn free_name(series: &str, ending: &str) -> PathBuf {
     (1..).map(name).find(|path| !path.exists()).unwrap_or_else(|| name(0))
 }
 
+/// A text with at most so many decimals in its numbers. Powers of ten stay as they are.
+pub fn rounded(text: &str, decimals: usize) -> String {
+    let mut rounded = String::new();
+    let mut rest = text;
+    while let Some(begin) = rest.find(|c: char| c.is_ascii_digit()) {
+        let (before, from) = rest.split_at(begin);
+        rounded += before;
+        let end = from.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(from.len());
+        let (number, behind) = from.split_at(end);
+        let is_long = number.split_once('.').is_some_and(|(_, fraction)| fraction.len() > decimals);
+        match number.parse::<f64>() {
+            Ok(value) if is_long && !behind.starts_with(|c: char| c.is_alphanumeric() || c == '_') => {
+                let short = format!("{value:.decimals$}");
+                rounded += short.trim_end_matches('0').trim_end_matches('.');
+            }
+            _ => rounded += number,
+        }
+        rest = behind;
+    }
+    rounded + rest
+}
+
 impl Viewer {
     /// Copies the camera, and prints it.
     pub fn copy_camera(&mut self, how: CopiedAs) {
@@ -67,9 +89,15 @@ impl Viewer {
         self.copy(&text);
     }
 
-    /// Copies a text, prints it and shows it.
+    /// As many decimals as mean something to who looks at the scene: a millionth of its size.
+    pub fn decimals(&self) -> usize {
+        let radius = self.document.as_ref().map_or(1.0, |document| document.ball.radius);
+        (6.0 - radius.log10().floor()).clamp(4.0, 15.0) as usize
+    }
+
+    /// Copies a text, prints it and shows it, with fewer digits.
     pub fn copy(&mut self, text: &str) {
-        self.ui.tell(text);
+        self.ui.tell(&rounded(text, self.decimals()));
         let printed = crate::console::print(text);
         if let Err(error) = self.clipboard.copy(text) {
             self.ui.tell(&format!("there is no clipboard: {error}"));
@@ -122,6 +150,15 @@ impl Viewer {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_shown_with_as_many_decimals_as_mean_something() {
+        let text =
+            "--eye 0.12345678901234567,-2.9999999999,1e-7 --fov 45 at 500000.0012345; 1.5e-12, -0.00000001";
+        let expected = "--eye 0.12346,-3,1e-7 --fov 45 at 500000.00123; 1.5e-12, -0";
+        assert_eq!(rounded(text, 5), expected);
+        assert_eq!(rounded("2.5.7 v1.2 10.", 1), "2.5.7 v1.2 10.");
+    }
 
     #[test]
     fn a_camera_file_holds_either_projection() {

@@ -36,6 +36,10 @@ impl Viewer {
     pub fn act(&mut self, action: Action) -> Result<()> {
         let window_px = self.window_px();
         let begun = Instant::now();
+        self.window.request_redraw();
+        if self.anchor.holds(action) || self.tells_why_not(action) {
+            return Ok(());
+        }
         match action {
             Action::Quit => self.ends = true,
             Action::Panel => {
@@ -46,11 +50,12 @@ impl Viewer {
             Action::Keys => self.ui.toggle_keys(),
             Action::Close => self.ui.close(),
             Action::Home | Action::Fit | Action::See(_) | Action::Turns | Action::NextUp => {
-                let Some(navigation) = &mut self.navigation else { return Ok(()) };
+                let seen = self.document.as_ref().map(|document| document.ball_of_seen(&self.edits));
+                let (Some(navigation), Some(seen)) = (&mut self.navigation, seen) else { return Ok(()) };
                 match action {
                     Action::Home => navigation.go_home(),
-                    Action::Fit => navigation.fit(window_px),
-                    Action::See(view) => navigation.see_from(view, window_px),
+                    Action::Fit => navigation.fit(&seen, window_px),
+                    Action::See(view) => navigation.see_from(view, &seen, window_px),
                     Action::NextUp => self.ui.tell(&format!("{} is up", navigation.next_axis())),
                     _ => navigation.is_free = !navigation.is_free,
                 }
@@ -77,7 +82,11 @@ impl Viewer {
             }
             Action::SplatScale(by) => {
                 let [least, most] = SPLAT_SCALES;
-                let scale = (self.edits.splat_scale * by as f32).clamp(least, most);
+                let now = self.edits.splat_scale;
+                let scale = (now * by as f32).clamp(least, most);
+                if scale == now {
+                    self.ui.tell(&format!("splats {scale:.2} times as large: as far as it goes"));
+                }
                 self.set_splat_scale(scale);
             }
             Action::Screenshot => self.write_picture(),
@@ -93,7 +102,6 @@ impl Viewer {
         if self.is_stale {
             self.input_at = Some(begun);
         }
-        self.window.request_redraw();
         Ok(())
     }
 
@@ -159,20 +167,24 @@ impl Viewer {
     fn step_setting(&mut self, name: &str, step: keys::Step) {
         let accept = |settings: &Settings| self.check(settings);
         let Some(settings) = values::stepped(&self.settings, name, step, accept) else { return };
-        if let Some(setting) = values::setting(name) {
-            self.ui.tell(&format!("{name}: {}", (setting.get)(&settings)));
-        }
         self.set(settings);
+        if let Some(setting) = values::setting(name) {
+            let drawn = self.drawn_edges().filter(|_| name == "edges");
+            let drawn = drawn.map_or(String::new(), |drawn| format!(" ({drawn} by this method)"));
+            self.ui.tell(&format!("{name}: {}{drawn}", (setting.get)(&self.settings)));
+        }
     }
 
     fn add_layers(&mut self, by: i64) {
         let (Layers::Fixed(layers) | Layers::Auto(layers)) = self.settings.layers;
+        let before = layers;
         let layers = (i64::from(layers) + by).clamp(1, i64::from(MOST_LAYERS)) as u32;
+        let end = if layers == before { ": as far as it goes" } else { "" };
         let layers = match self.settings.layers {
             Layers::Fixed(_) => Layers::Fixed(layers),
             Layers::Auto(_) => Layers::Auto(layers),
         };
-        self.ui.tell(&format!("layers: {}", layers.word()));
+        self.ui.tell(&format!("layers: {}{end}", layers.word()));
         self.set(Settings { layers, ..self.settings.clone() });
     }
 

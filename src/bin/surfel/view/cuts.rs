@@ -3,7 +3,7 @@
 use glam::DVec3;
 use surfel::scene::{Bounds, ClipBox, ClipPlanes, OptionValue as _, Settings};
 
-use super::{keys::Cutting, viewer::Viewer};
+use super::{capture::rounded, keys::Cutting, viewer::Viewer};
 
 /// What a key moves a plane by, in radii of the scene.
 const STEP: f64 = 0.05;
@@ -25,10 +25,11 @@ impl Viewer {
             Cutting::Less => moved(&self.settings, -STEP * radius, LEAST_HALF * radius),
         };
         let words = words(&cut);
+        let shown = rounded(&words, self.decimals());
         let told = match (words.is_empty(), how) {
             (true, _) => "nothing is cut".to_owned(),
-            (false, Cutting::Box) => format!("{words}: around all; = cuts away, - less"),
-            (false, _) => words,
+            (false, Cutting::Box) => format!("{shown}: around all; = cuts away, - less"),
+            (false, _) => shown,
         };
         self.ui.tell(&told);
         self.set(cut);

@@ -16,6 +16,8 @@ pub struct Document {
     pub scene: Arc<Scene>,
     /// A ball around it.
     pub ball: Ball,
+    /// Those around its things, each by itself.
+    pub balls: Vec<Option<Ball>>,
     /// The camera for it.
     pub camera: Camera,
     /// What scene files say of the picture.

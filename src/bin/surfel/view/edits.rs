@@ -149,7 +149,16 @@ pub fn things(scene: &Scene) -> Vec<(String, String)> {
         let count = object.leaves.len();
         (object.name.clone(), format!("{count} splats in levels{}", transparent(object.opacity)))
     });
-    objects.chain(meshes).chain(leveled).collect()
+    let mut all: Vec<(String, String)> = objects.chain(meshes).chain(leveled).collect();
+    let mut named = std::collections::HashMap::<String, (usize, usize)>::new();
+    all.iter().for_each(|(name, _)| named.entry(name.clone()).or_default().0 += 1);
+    for (name, _) in &mut all {
+        if let Some((count @ 2.., before)) = named.get_mut(name.as_str()) {
+            *before += 1;
+            *name = format!("{name}, {before} of {count}");
+        }
+    }
+    all
 }
 
 #[cfg(test)]
@@ -206,6 +215,14 @@ mod tests {
         ] {
             assert_eq!(with(things).check(&scene, settings).is_ok(), is_drawn, "{things:?}");
         }
+    }
+
+    #[test]
+    fn things_of_one_name_are_numbered() {
+        let objects = ["a", "b", "a", "a"].map(|name| object(name, 1.0)).into();
+        let names: Vec<_> =
+            things(&Scene { objects, ..Scene::default() }).into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ["a, 1 of 3", "b", "a, 2 of 3", "a, 3 of 3"]);
     }
 
     #[test]

@@ -18,10 +18,30 @@ const DROP: Duration = Duration::from_millis(100);
 pub struct Files {
     dropped: Vec<PathBuf>,
     dropped_at: Option<Instant>,
-    watched: Vec<(PathBuf, Option<Stamp>)>,
+    watched: Vec<Watched>,
     looked: Option<Instant>,
     changed: bool,
 }
+
+/// A file of the scene.
+struct Watched {
+    path: PathBuf,
+    known: Option<Stamp>,
+    /// At so many looks in a row it was not there.
+    missed: u32,
+}
+
+/// What a look at the files of the scene has found.
+#[derive(Debug, Default, PartialEq)]
+struct Found {
+    /// Some have changed, and are the same since the look before.
+    settled: bool,
+    /// What is to be told.
+    lines: Vec<String>,
+}
+
+/// One that is being replaced is not there for a moment; at so many looks in a row it is gone.
+const GONE: u32 = 2;
 
 /// What tells that a file has changed.
 type Stamp = (SystemTime, u64);
@@ -48,28 +68,59 @@ impl Files {
     /// Watches these from now on.
     pub fn watch(&mut self, files: &[PathBuf]) {
         let is_file = |path: &&PathBuf| path.as_os_str() != "-";
-        self.watched = files.iter().filter(is_file).map(|path| (path.clone(), stamp(path))).collect();
+        self.watched = files
+            .iter()
+            .filter(is_file)
+            .cloned()
+            .map(|path| Watched { known: stamp(&path), path, missed: 0 })
+            .collect();
         (self.looked, self.changed) = (Some(Instant::now()), false);
     }
 
     /// Those that were dropped, once no more follow.
-    fn take_dropped(&mut self, now: Instant) -> Option<Vec<PathBuf>> {
-        self.dropped_at.take_if(|at| now >= *at + DROP).map(|_| std::mem::take(&mut self.dropped))
+    fn take_dropped(&mut self, now: Instant, waits: bool) -> Option<Vec<PathBuf>> {
+        let is_due = |at: &mut Instant| now >= *at + DROP;
+        if waits {
+            self.dropped_at.take_if(is_due);
+            return None;
+        }
+        let is_due = self.dropped_at.is_none_or(|at| now >= at + DROP);
+        if !is_due || self.dropped.is_empty() {
+            return None;
+        }
+        self.dropped_at = None;
+        Some(std::mem::take(&mut self.dropped))
     }
 
-    /// Whether one has changed, and is the same since the look before.
-    fn has_settled(&mut self) -> bool {
-        let mut changes = false;
-        for (path, known) in &mut self.watched {
+    /// Whether some are dropped and not read yet.
+    pub fn are_dropped(&self) -> bool {
+        !self.dropped.is_empty()
+    }
+
+    /// Looks whether they have changed.
+    fn look(&mut self) -> Found {
+        let (mut lines, mut changes) = (Vec::new(), false);
+        for Watched { path, known, missed } in &mut self.watched {
             let now = stamp(path);
-            // One that is being replaced is not there for a moment.
-            if now.is_some() && now != *known {
+            let name = surfel::load::file_name(path);
+            if now.is_none() {
+                *missed = missed.saturating_add(1);
+                if *missed == GONE {
+                    lines.push(format!("{name} is not there any more; what is shown stays"));
+                }
+                continue;
+            }
+            let was_gone = std::mem::take(missed) >= GONE;
+            if now != *known {
                 (*known, changes) = (now, true);
+                lines.push(format!("{name} has changed and is read again"));
+            } else if was_gone {
+                lines.push(format!("{name} is there again"));
             }
         }
         let settled = self.changed && !changes;
         self.changed = changes;
-        settled
+        Found { settled, lines }
     }
 }
 
@@ -77,20 +128,28 @@ impl Viewer {
     /// Reads what was dropped, and what has changed on disk.
     pub fn look_at_files(&mut self) {
         let now = Instant::now();
-        if let Some(files) = self.files.take_dropped(now) {
+        // The first ones are read to their end: what is dropped meanwhile takes their place then.
+        if let Some(files) = self.files.take_dropped(now, self.reads_first) {
             let is_path = |file: &PathBuf| file.extension().is_some_and(|ending| ending == "json");
             let (paths, files): (Vec<_>, Vec<_>) = files.into_iter().partition(is_path);
             paths.iter().for_each(|path| self.take_path(path));
             if files.is_empty() {
                 return;
             }
-            let options = self.document.as_ref().map(|document| document.files.clone()).unwrap_or_default();
+            let options = match &self.document {
+                Some(document) => document.files.clone(),
+                None => self.options.inputs.clone(),
+            };
             self.keeps_camera = false;
             self.open(Inputs { files, ..options });
         }
         if self.files.looked.is_some_and(|looked| now >= looked + LOOK) {
             self.files.looked = Some(now);
-            if self.files.has_settled() {
+            let found = self.files.look();
+            for line in &found.lines {
+                self.tell(line);
+            }
+            if found.settled {
                 self.reload();
             }
         }
@@ -125,13 +184,32 @@ mod tests {
         let mut files = Files::default();
         assert!(files.next_look().is_none());
         files.watch(&[path.clone(), PathBuf::from("-")]);
-        assert!(files.watched.len() == 1 && !files.has_settled() && files.next_look().is_some());
+        let look = |files: &mut Files| {
+            let Found { settled, lines } = files.look();
+            (settled, lines.join(", "))
+        };
+        let nothing = (false, String::new());
+        assert!(files.watched.len() == 1 && look(&mut files) == nothing && files.next_look().is_some());
         std::fs::write(&path, "longer").unwrap();
-        assert!(!files.has_settled(), "it may go on changing");
+        assert_eq!(
+            look(&mut files),
+            (false, "a.ply has changed and is read again".to_owned()),
+            "it may go on changing"
+        );
         std::fs::remove_file(&path).unwrap();
-        assert!(files.has_settled() && !files.has_settled());
+        assert_eq!(look(&mut files), (true, String::new()), "it may come again at once");
+        let gone = "a.ply is not there any more; what is shown stays";
+        assert_eq!(look(&mut files), (false, gone.to_owned()));
+        assert_eq!(look(&mut files), nothing, "it is told once");
         std::fs::write(&path, "longer still").unwrap();
-        assert!(!files.has_settled() && files.has_settled());
+        assert_eq!(look(&mut files), (false, "a.ply has changed and is read again".to_owned()));
+        assert_eq!(look(&mut files), (true, String::new()));
+        // Away and back, the same as before.
+        let away = folder.path().join("away");
+        std::fs::rename(&path, &away).unwrap();
+        assert_eq!([look(&mut files), look(&mut files)], [nothing, (false, gone.to_owned())]);
+        std::fs::rename(&away, &path).unwrap();
+        assert_eq!(look(&mut files), (false, "a.ply is there again".to_owned()));
     }
 
     #[test]
@@ -140,8 +218,11 @@ mod tests {
         files.drop_one(PathBuf::from("a"));
         files.drop_one(PathBuf::from("b"));
         let now = Instant::now();
-        assert_eq!(files.take_dropped(now), None);
-        assert_eq!(files.take_dropped(now + DROP).map(|all| all.len()), Some(2));
-        assert_eq!(files.take_dropped(now + DROP), None);
+        assert_eq!(files.take_dropped(now, false), None);
+        // They wait for the first ones, and the window does not look for them over and over.
+        assert_eq!(files.take_dropped(now + DROP, true), None);
+        assert!(files.are_dropped() && files.next_look().is_none());
+        assert_eq!(files.take_dropped(now + DROP, false).map(|all| all.len()), Some(2));
+        assert_eq!(files.take_dropped(now + DROP, false), None);
     }
 }

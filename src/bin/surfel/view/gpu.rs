@@ -51,6 +51,8 @@ pub struct Gpu {
     /// When the frame before began; none where the window rested.
     before: Option<Instant>,
     period: Option<Duration>,
+    /// So many frames to come wait for one whose pipelines were made while it was recorded, and tell of that.
+    compiling: usize,
     /// Pipelines that were given up since memory was given back.
     dropped: usize,
     /// An image is acquired, and nothing is submitted yet that waits for its semaphore.
@@ -86,6 +88,7 @@ impl Gpu {
             fits: false,
             before: None,
             period: None,
+            compiling: 0,
             dropped: 0,
             is_acquired: false,
         })
@@ -114,7 +117,9 @@ impl Gpu {
         };
         // Where the host waits, frames follow each other as fast as they can, whatever it is that takes the time.
         let waited = begun.elapsed() > Duration::from_millis(1);
-        self.period = self.before.replace(begun).filter(|_| waited).map(|before| begun - before);
+        let before = self.before.replace(begun).filter(|_| waited && self.compiling == 0);
+        self.period = before.map(|before| begun - before);
+        self.compiling = self.compiling.saturating_sub(1);
         self.is_acquired = true;
         match self.draw_to(index, desc) {
             Ok(drawn) => Ok(drawn),
@@ -146,6 +151,7 @@ impl Gpu {
         let commands = unsafe { frame.commands.begin() }?;
         // SAFETY: recording; submitted with this image below.
         unsafe { queue.tell_done(commands, image) };
+        let made = self.headless.renderer.shaders().made();
         for (which, view) in desc.views {
             let slot = &mut self.pictures[which.index()];
             let target = slot.target(self.headless.device(), view)?;
@@ -189,9 +195,14 @@ impl Gpu {
         // SAFETY: recorded just now; `acquired` is to be signaled by the acquisition, `drawn` is waited for by the presentation below.
         let epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, image) }?;
         (frame.epoch, self.is_acquired) = (epoch, false);
+        let compiles = self.headless.renderer.shaders().made() != made;
+        if compiles {
+            self.compiling = IN_FLIGHT + 1;
+        }
         for (which, view) in desc.views {
             let what = if *which == Use::Other { "other" } else { desc.what };
-            let begun = Begun { at: begun, input: desc.input, what, size_px: view.settings.size_px };
+            let size_px = view.settings.size_px;
+            let begun = Begun { at: begun, input: desc.input, what, size_px, compiles };
             self.pictures[which.index()].submitted(epoch, begun);
         }
         self.number = (self.number + 1) % IN_FLIGHT;

@@ -35,7 +35,8 @@ impl History {
         self.push_passes(passes);
     }
 
-    fn push_passes<'p>(&mut self, passes: impl Iterator<Item = (&'p str, f64)>) {
+    /// The same of passes by their names, in seconds; of none, nothing changes.
+    pub fn push_passes<'p>(&mut self, passes: impl Iterator<Item = (&'p str, f64)>) {
         let mut passes = passes.peekable();
         if passes.peek().is_none() {
             return;

@@ -67,6 +67,11 @@ impl Viewer {
             }
             WindowEvent::Occluded(false) => self.changed(),
             WindowEvent::DroppedFile(path) => {
+                if self.reads_first {
+                    let name = surfel::load::file_name(&path);
+                    self.ui.tell(&format!("{name} comes once the first files are read"));
+                    self.window.request_redraw();
+                }
                 self.files.drop_one(path);
             }
             WindowEvent::CursorMoved { position, .. } => self.cursor([position.x, position.y]),
@@ -75,8 +80,8 @@ impl Viewer {
                 self.window.request_redraw();
             }
             WindowEvent::MouseInput { state, button, .. } => self.button(button, state)?,
-            WindowEvent::MouseWheel { delta, .. } => self.wheel(delta),
-            WindowEvent::PinchGesture { delta, .. } => self.zoom(-delta),
+            WindowEvent::MouseWheel { delta, .. } => self.wheel(delta)?,
+            WindowEvent::PinchGesture { delta, .. } => self.zoom(-delta)?,
             WindowEvent::KeyboardInput { event, .. } => {
                 let pressed = event.state == ElementState::Pressed;
                 let is_written = self.ui.key(&event, self.input.modifiers);
@@ -131,7 +136,8 @@ impl Viewer {
             return Ok(());
         }
         if !pressed {
-            if self.input.dragged.take().is_some() && self.moved.take().is_some() {
+            let drags = self.input.dragged.take().is_some();
+            if drags && !self.pace.waits() && self.moved.take().is_some() {
                 // The hand is off: what it moved rests.
                 self.window.request_redraw();
             }
@@ -160,7 +166,7 @@ impl Viewer {
         Ok(())
     }
 
-    fn wheel(&mut self, delta: MouseScrollDelta) {
+    fn wheel(&mut self, delta: MouseScrollDelta) -> Result<()> {
         const PX_A_LINE: f64 = 40.0;
         let lines = match delta {
             MouseScrollDelta::LineDelta(_, y) => f64::from(y),
@@ -168,18 +174,9 @@ impl Viewer {
         };
         if self.ui.wheel(lines as f32) {
             self.window.request_redraw();
-        } else {
-            self.zoom(-0.15 * lines);
+            return Ok(());
         }
-    }
-
-    /// By a natural logarithm of distance.
-    fn zoom(&mut self, by: f64) {
-        let (cursor, window_px) = (self.input.cursor, self.window_px());
-        if let Some(navigation) = self.navigation.as_mut().filter(|_| by.is_finite()) {
-            navigation.zoom(by.clamp(-2.0, 2.0).exp(), cursor, window_px);
-            self.moved();
-        }
+        self.zoom(-0.15 * lines)
     }
 
     /// Keys that fly, by their place on the keyboard.

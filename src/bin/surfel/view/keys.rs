@@ -168,11 +168,7 @@ pub const BINDINGS: &[Binding] = &[
     binding("m", Action::Tonemap, "the next tone curve"),
     binding(".", Action::SplatScale(1.25), "larger splats"),
     binding(",", Action::SplatScale(0.8), "smaller splats"),
-    binding(
-        "X",
-        Action::Cut(Cutting::Plane),
-        "cuts off what is nearer than the point turned about, or nothing",
-    ),
+    binding("X", Action::Cut(Cutting::Plane), "cuts off what is before the point turned about, or nothing"),
     binding("B", Action::Cut(Cutting::Box), "cuts off what is outside of a box, or nothing"),
     binding("=", Action::Cut(Cutting::More), "the cut goes deeper"),
     binding("-", Action::Cut(Cutting::Less), "the cut goes less deep"),
@@ -208,7 +204,7 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("wheel", "nearer to what is under the cursor, or away from it"),
     ("double click", "turns about that point of the surface from then on"),
     ("w a s d q e", "fly: forward, left, back, right, down, up; with Shift faster"),
-    ("Tab", "through the panel: Space sets, left and right change, Escape leaves"),
+    ("Tab", "through the panel: Space sets, arrows change, Escape leaves"),
 ];
 
 /// What a key does, by its character or name, if anything.

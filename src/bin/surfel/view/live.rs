@@ -6,7 +6,7 @@ use notify::{EventKind, RecursiveMode, Watcher as _};
 use surfel::{Error, Result, shaders::live};
 use winit::event_loop::EventLoopProxy;
 
-use super::{loading::News, viewer::Viewer};
+use super::{told::News, viewer::Viewer};
 
 /// An editor writes a file in several steps, which follow each other so soon.
 const SETTLED: Duration = Duration::from_millis(150);

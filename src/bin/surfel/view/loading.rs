@@ -4,7 +4,7 @@ use std::{
     sync::{
         Arc,
         atomic::{AtomicBool, AtomicU64, Ordering},
-        mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel},
+        mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel},
     },
     thread::JoinHandle,
     time::Duration,
@@ -14,54 +14,20 @@ use surfel::{
     Error, Result,
     prepare::{PreparedScene, SplatSetLayout, prepare},
     scene::{Light, Scene, Storage},
-    vk::{Device, Limits, Staging},
+    vk::{Device, Limits},
 };
 use winit::event_loop::EventLoopProxy;
 
 use super::{
     document::Document,
     edits::{Edits, part_of},
+    extents,
+    told::{News, Prepared, Step},
 };
 use crate::{
     camera::CameraChoice, console::Bars, hierarchies::load_scene_with_hierarchies, inputs::Inputs,
     scene::Loaded,
 };
-
-/// What the thread tells the window.
-pub enum News {
-    /// Files are read.
-    Opened(Box<Document>),
-    /// A scene is on the device; as the last step of its preparation, or as one before.
-    Prepared(Box<Prepared>),
-    /// Bytes of a job are to be submitted; the thread waits for the answer, and keeps what they go to until then.
-    Upload(Staging, u64, SyncSender<Result<()>>),
-    /// Shaders were compiled anew, so many; or what is wrong with them.
-    #[cfg(feature = "live-shaders")]
-    Shaders(std::result::Result<usize, String>),
-    /// Files can't be read, or have no room on the device.
-    Failed(Error),
-}
-
-/// A scene on the device.
-pub struct Prepared {
-    /// The scene.
-    pub scene: PreparedScene,
-    /// How much of it that is.
-    pub step: Step,
-    /// The number of the job.
-    pub job: u64,
-}
-
-/// How far a preparation is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Step {
-    /// A part of its splats, larger.
-    Part,
-    /// All of it.
-    Whole,
-    /// All of it, and levels of detail for moving pictures.
-    Leveled,
-}
 
 /// A part of a scene is shown first where it has more splats.
 const PART_FROM: usize = 200_000;
@@ -78,6 +44,7 @@ pub struct Loader {
     jobs: Option<Sender<Job>>,
     thread: Option<JoinHandle<()>>,
     newest: Arc<AtomicU64>,
+    newest_files: Arc<AtomicU64>,
     is_reading: Arc<AtomicBool>,
     is_closing: Arc<AtomicBool>,
 }
@@ -86,6 +53,8 @@ pub struct Loader {
 struct Worker {
     proxy: EventLoopProxy<News>,
     newest: Arc<AtomicU64>,
+    /// Of the jobs that read files, which a scene that is prepared meanwhile does not replace.
+    newest_files: Arc<AtomicU64>,
     is_reading: Arc<AtomicBool>,
     /// Nothing that the window is asked for is done any more.
     is_closing: Arc<AtomicBool>,
@@ -108,11 +77,12 @@ impl Loader {
     /// Starts the thread.
     pub fn new(proxy: EventLoopProxy<News>, limits: Limits, wants: Wants) -> Self {
         let (jobs, received) = channel();
-        let newest = Arc::new(AtomicU64::new(0));
+        let [newest, newest_files] = [(); 2].map(|()| Arc::new(AtomicU64::new(0)));
         let (is_reading, is_closing) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
         let worker = Worker {
             proxy,
             newest: Arc::clone(&newest),
+            newest_files: Arc::clone(&newest_files),
             is_reading: Arc::clone(&is_reading),
             is_closing: Arc::clone(&is_closing),
             limits,
@@ -120,12 +90,13 @@ impl Loader {
             bars: Bars::new(),
         };
         let thread = std::thread::spawn(move || worker.run(&received));
-        Self { jobs: Some(jobs), thread: Some(thread), newest, is_reading, is_closing }
+        Self { jobs: Some(jobs), thread: Some(thread), newest, newest_files, is_reading, is_closing }
     }
 
     /// Reads files; the camera is for a picture of this size.
     pub fn open(&self, files: Inputs, size_px: [u32; 2]) {
         let number = self.next();
+        self.newest_files.store(number, Ordering::Release);
         self.send(Job::Open { number, files, size_px });
     }
 
@@ -168,20 +139,23 @@ impl Drop for Loader {
 impl Worker {
     fn run(&self, jobs: &Receiver<Job>) {
         while let Ok(job) = jobs.recv() {
-            let done = match job {
-                Job::Open { number, .. } | Job::Prepare { number, .. } if !self.is_newest(number) => Ok(()),
+            match job {
+                Job::Open { number, .. } if number != self.newest_files.load(Ordering::Acquire) => {}
+                Job::Prepare { number, .. } if !self.is_newest(number) => {}
                 Job::Open { files, size_px, .. } => {
                     self.is_reading.store(true, Ordering::Release);
                     let opened = self.open(files, size_px);
                     self.is_reading.store(false, Ordering::Release);
-                    opened.map(|document| self.tell(News::Opened(Box::new(document))))
+                    self.tell(match opened {
+                        Ok(document) => News::Opened(Box::new(document)),
+                        Err(error) => News::Unread(error),
+                    });
                 }
                 Job::Prepare { number, scene, edits, device, in_parts } => {
-                    self.prepare(number, (&scene, &edits), &device, in_parts)
+                    if let Err(error) = self.prepare(number, (&scene, &edits), &device, in_parts) {
+                        self.tell(News::Failed(error));
+                    }
                 }
-            };
-            if let Err(error) = done {
-                self.tell(News::Failed(error));
             }
         }
     }
@@ -217,7 +191,8 @@ impl Worker {
         scene.storage = *storage;
         (scene.budget, scene.levels) = (*budget, *budget);
         scene.numbered = true;
-        Ok(Document { scene: Arc::new(scene), ball, camera, picture, inputs, files, paged })
+        let balls = extents::balls(&mut scene);
+        Ok(Document { scene: Arc::new(scene), ball, balls, camera, picture, inputs, files, paged })
     }
 
     /// Step by step, until another job comes.
@@ -246,7 +221,9 @@ impl Worker {
         if splats > LEVELS_FROM && !has_levels {
             steps.push(Step::Leveled);
         }
+        let last = steps.last().copied();
         for step in steps {
+            let is_last = Some(step) == last;
             let part;
             let scene = match step {
                 Step::Part => {
@@ -260,7 +237,7 @@ impl Worker {
                 _ => scene,
             };
             match self.upload(job, scene, device) {
-                Ok(scene) => self.tell(News::Prepared(Box::new(Prepared { scene, step, job }))),
+                Ok(scene) => self.tell(News::Prepared(Box::new(Prepared { scene, step, is_last, job }))),
                 // Nobody waits for it any more.
                 Err(_) if !self.is_newest(job) => return Ok(()),
                 Err(error) => return Err(error),

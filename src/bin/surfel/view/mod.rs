@@ -1,16 +1,19 @@
 //! `surfel view`: a scene in a window. One file a part: what keys do (`keys`), how the camera moves (`navigation`), how coarse a moving
-//! picture is (`pace`), the thread that reads files (`loading`), the window's device (`device`, `gpu` and the files it names), what lies over the
-//! picture (`ui`, `panel`, `popups`), and the window itself (`app`, `viewer`, `redraw`, `refine`, `recover`, `input`, `files`, `changes`, `things`, `picking`, `path`, `capture`).
+//! picture is (`pace`), the thread that reads files (`loading`, `told`), the window's device (`device`, `gpu` and the files it names), what lies over the
+//! picture (`ui`, `panel`, `state`, `popups`, `compared`), and the window itself (`app`, `viewer`, `news`, `redraw`, `refine`, `recover`, `input`, `files`, `changes`, `reasons`, `things`, `picking`, `anchor`, `path`, `capture`).
 
+mod anchor;
 mod app;
 mod bars;
 mod capture;
 mod changes;
+mod compared;
 mod cuts;
 mod device;
 mod display;
 mod document;
 mod edits;
+mod extents;
 mod files;
 mod frame;
 mod frame_desc;
@@ -23,6 +26,7 @@ mod live;
 mod loading;
 mod memory;
 mod navigation;
+mod news;
 mod on_device;
 mod options;
 mod overlay;
@@ -33,11 +37,14 @@ mod picking;
 mod picture;
 mod popups;
 mod printed;
+mod reasons;
 mod recover;
 mod redraw;
 mod refine;
 mod show;
+mod state;
 mod things;
+mod told;
 mod ui;
 mod values;
 mod viewer;
@@ -130,7 +137,7 @@ pub fn run(arguments: &ViewArguments) -> Result<()> {
     let camera = CameraChoice::of(&arguments.camera)?;
     let path = arguments.path.as_deref().map(path::Path::read).transpose()?.unwrap_or_default();
     display::check()?;
-    let events = EventLoop::<loading::News>::with_user_event()
+    let events = EventLoop::<told::News>::with_user_event()
         .build()
         .map_err(|error| ErrorKind::NoWindow { reason: display::explain(&error.to_string()) })?;
     let mut app = app::App::new(arguments, settings, (camera, path), events.create_proxy());

@@ -10,7 +10,7 @@ pub struct Navigation {
     pub camera: Camera,
     /// Where it began.
     home: Camera,
-    /// What `fit` shows.
+    /// What is about as large as the scene.
     ball: Ball,
     /// The direction about which a turntable turns, unit.
     axis: DVec3,
@@ -70,14 +70,20 @@ impl Navigation {
         self.shift((up * dy - right * dx) * unit);
     }
 
-    /// Moves nearer to what is under the cursor, or away from it: `factor` is the new distance over the old one.
-    pub fn zoom(&mut self, factor: f64, cursor_px: [f64; 2], window_px: [u32; 2]) {
+    /// Moves nearer to the surface that is under the cursor, or away from it: `factor` is the new distance over the old one. Where there is none, to what is there at the
+    /// target's distance.
+    pub fn zoom(
+        &mut self,
+        factor: f64,
+        (cursor_px, surface): ([f64; 2], Option<DVec3>),
+        window_px: [u32; 2],
+    ) {
         let distance = self.distance();
         let [least, most] = DISTANCES.map(|radii| radii * self.ball.radius.max(f64::MIN_POSITIVE));
         let least = least.max(1e3 * f64::EPSILON * self.camera.target.abs().max_element());
         let shown = self.camera.orthographic_height.unwrap_or(distance);
         let factor = (shown * factor).clamp(least.min(shown), most.max(shown)) / shown;
-        let anchor = self.at(cursor_px, window_px, distance);
+        let anchor = surface.unwrap_or_else(|| self.at(cursor_px, window_px, distance));
         match &mut self.camera.orthographic_height {
             Some(height) => {
                 *height *= factor;
@@ -108,16 +114,16 @@ impl Navigation {
         self.axis = self.camera.usable_up().normalize_or(DVec3::Y);
     }
 
-    /// Shows all of the scene from the same side.
-    pub fn fit(&mut self, window_px: [u32; 2]) {
+    /// Shows all within a ball from the same side.
+    pub fn fit(&mut self, ball: &Ball, window_px: [u32; 2]) {
         let [_, _, forward] = self.axes();
-        self.look_from(-forward, self.camera.up, window_px);
+        self.look_from(-forward, self.camera.up, ball, window_px);
     }
 
-    /// Shows all of the scene from a side.
-    pub fn see_from(&mut self, view: View, window_px: [u32; 2]) {
+    /// Shows all within a ball from a side.
+    pub fn see_from(&mut self, view: View, ball: &Ball, window_px: [u32; 2]) {
         let [toward, up] = toward_eye(Some(self.axis), view.angles_rad());
-        self.look_from(toward, up, window_px);
+        self.look_from(toward, up, ball, window_px);
     }
 
     /// Another direction is up; the eye stays.
@@ -163,10 +169,10 @@ impl Navigation {
         self.camera.eye + forward * depth + (right * dx - up * dy) * unit
     }
 
-    fn look_from(&mut self, toward_eye: DVec3, up: DVec3, window_px: [u32; 2]) {
-        let fit = Camera::fit(&self.ball, window_px, self.camera.fov_y_rad);
+    fn look_from(&mut self, toward_eye: DVec3, up: DVec3, ball: &Ball, window_px: [u32; 2]) {
+        let fit = Camera::fit(ball, window_px, self.camera.fov_y_rad);
         let distance = fit.eye.distance(fit.target);
-        let height = self.camera.orthographic_height.map(|_| Camera::height_of(&self.ball, window_px));
+        let height = self.camera.orthographic_height.map(|_| Camera::height_of(ball, window_px));
         self.camera.orthographic_height = height;
         self.camera.target = fit.target;
         (self.camera.eye, self.camera.up) = (fit.target + toward_eye * distance, up);

@@ -8,7 +8,7 @@ use surfel::{
     scene::{Camera, Light, Lod, Settings},
 };
 
-use super::loading::Step;
+use super::told::Step;
 
 /// A scene on the device.
 pub enum OnDevice {

@@ -3,7 +3,7 @@
 use surfel::scene::Settings;
 
 use super::ViewArguments;
-use crate::{device::DeviceArguments, settings::Given};
+use crate::{device::DeviceArguments, inputs::Inputs, settings::Given};
 
 /// What pages of a file take on the device at most, unless told otherwise.
 const MOST_PAGED_BYTES: u64 = 2_000_000_000;
@@ -12,6 +12,8 @@ const MOST_PAGED_BYTES: u64 = 2_000_000_000;
 pub struct Options {
     pub device: DeviceArguments,
     pub said: Box<dyn Fn(Settings) -> Settings>,
+    /// The files, and how they are read.
+    pub inputs: Inputs,
     pub picture_size: Option<[u32; 2]>,
     /// It says how many samples a pixel has.
     pub says_samples: bool,
@@ -27,6 +29,7 @@ impl Options {
         Self {
             device: arguments.device.clone(),
             said: Box::new(move |settings| said.said_over(settings)),
+            inputs: arguments.input.inputs(),
             picture_size: arguments.picture_size,
             says_samples: arguments.settings.says("samples"),
             prints_frames: arguments.print_frames,

@@ -1,4 +1,6 @@
-//! How coarse the picture is while it moves: as fine as the device draws often enough.
+//! How coarse the picture is while it moves: as fine as the device draws often enough; and how soon it rests.
+
+use std::time::Duration;
 
 use surfel::scene::Lod;
 
@@ -7,6 +9,13 @@ const GOAL_SECS: f64 = 0.040;
 
 /// A picture at rest that takes no longer comes at once: something coarser before it would only make it later. Up to 0.15 s it is seen within 0.2 s after the hand is off.
 const WHOLE_SECS: f64 = 0.300;
+
+/// The camera rests once it has not moved for so long.
+const REST: Duration = Duration::from_millis(25);
+
+/// Where all of the picture takes longer than this, the camera rests later: while it is drawn the window shows nothing else, and a hand that only pauses would wait for it.
+const LONG_SECS: f64 = 1.0;
+const REST_OF_LONG: Duration = Duration::from_millis(500);
 
 /// The picture's side over the window's, and the size up to which splats are drawn as one, in pixels of the picture. From fine to coarse, each
 /// about two thirds of the cost of the one before.
@@ -31,6 +40,8 @@ pub struct Pace {
     fast: u32,
     /// What all of the picture has cost last.
     whole_secs: f64,
+    /// What it would cost by the last frame that moved.
+    expected_secs: f64,
 }
 
 impl Pace {
@@ -60,16 +71,30 @@ impl Pace {
         self.whole_secs > WHOLE_SECS
     }
 
-    /// Learns what all of the picture has cost.
-    pub fn learn_whole(&mut self, secs: f64) {
-        self.whole_secs = secs;
+    /// Whether the camera rests later, since all of the picture takes long.
+    pub fn waits(&self) -> bool {
+        self.expected_secs > LONG_SECS
     }
 
-    /// Learns what a moving frame has cost.
-    pub fn learn(&mut self, secs: f64) {
+    /// The camera rests once it has not moved for so long.
+    pub fn rest(&self) -> Duration {
+        if self.waits() { REST_OF_LONG } else { REST }
+    }
+
+    /// Learns what all of the picture has cost.
+    pub fn learn_whole(&mut self, secs: f64) {
+        (self.whole_secs, self.expected_secs) = (secs, secs);
+    }
+
+    /// Learns what a moving frame has cost. `compiles`: pipelines were made for it, so that the next one may cost far less.
+    pub fn learn(&mut self, secs: f64, compiles: bool) {
+        let (scale, _) = STEPS[self.step];
+        if !compiles {
+            self.expected_secs = secs / (scale * scale);
+        }
         if secs > 1.15 * GOAL_SECS && self.step + 1 < STEPS.len() {
             // Several at once where it is far too slow.
-            let by = if secs > 4.0 * GOAL_SECS { 3 } else { 1 };
+            let by = if secs > 4.0 * GOAL_SECS && !compiles { 3 } else { 1 };
             (self.step, self.fast) = ((self.step + by).min(STEPS.len() - 1), 0);
         } else if secs < 0.5 * GOAL_SECS && self.step > 0 {
             self.fast += 1;
@@ -91,7 +116,7 @@ mod tests {
         let mut pace = Pace::default();
         for _ in 0..200 {
             let (scale, lod_px) = STEPS[pace.step];
-            pace.learn(full_secs * scale * scale / (1.0 + lod_px * lod_px));
+            pace.learn(full_secs * scale * scale / (1.0 + lod_px * lod_px), false);
         }
         pace
     }
@@ -117,6 +142,28 @@ mod tests {
             pace.is_slow()
         });
         assert_eq!(slow, [false, false, true, false]);
+    }
+
+    #[test]
+    fn the_camera_rests_later_before_a_picture_that_takes_very_long() {
+        let mut pace = Pace::default();
+        assert!(!pace.waits() && pace.rest() == REST);
+        pace.learn_whole(6.0);
+        assert!(pace.waits() && pace.rest() == REST_OF_LONG);
+        // Outside of the model again, a small picture tells of the large one.
+        pace.learn(0.5, false);
+        pace.learn(0.01, false);
+        assert!(!pace.waits());
+        pace.learn(0.7, false);
+        assert!(pace.waits());
+    }
+
+    #[test]
+    fn a_frame_whose_pipelines_were_made_tells_little_of_the_next() {
+        let (mut sure, mut unsure) = (Pace::default(), Pace::default());
+        sure.learn(2.0, false);
+        unsure.learn(2.0, true);
+        assert!((sure.step, unsure.step) == (3, 1) && sure.waits() && !unsure.waits());
     }
 
     #[test]

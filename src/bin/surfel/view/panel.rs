@@ -1,109 +1,17 @@
 //! The panel, the keys and the messages over the picture. Everything in the panel can be done by keys, too.
 
-use egui::{Color32, ComboBox, Context, Grid, Id, RichText, ScrollArea, Slider, Ui, Vec2};
-use surfel::{
-    Result,
-    scene::{Encoding, Layers, MOST_LAYERS, Settings, Tonemap},
+use egui::{
+    Align, Color32, ComboBox, Context, Grid, Id, Label, Layout, RichText, ScrollArea, Slider, Ui, Vec2,
 };
+use surfel::scene::{Layers, MOST_LAYERS, Settings, Tonemap};
 
 use super::{
     bars::bars,
-    edits::{Edits, things},
     history::History,
-    keys::{Action, Comparing, Cutting, Step},
-    loading, values,
-    viewer::Viewer,
+    keys::{Action, Cutting, Step},
+    state::{Change, State},
+    values,
 };
-
-/// What the panel shows.
-pub struct State {
-    pub settings: Settings,
-    pub encoding: Encoding,
-    pub edits: Edits,
-    /// Names and kinds of the scene's things.
-    pub things: Vec<(String, String)>,
-    /// The one that keys change.
-    pub thing: usize,
-    pub facts: Vec<(&'static str, String)>,
-    pub shows_difference: bool,
-}
-
-/// What is to be changed.
-pub enum Change {
-    /// Other settings.
-    Settings(Settings),
-    /// Other exposure, in stops.
-    Exposure(f64),
-    /// Another curve.
-    Tonemap(Tonemap),
-    /// Other things seen, or another alpha of them.
-    Edits(Edits),
-    /// Splats of another size.
-    SplatScale(f32),
-    /// What a key does, too.
-    Act(Action),
-}
-
-impl State {
-    /// That of now.
-    pub fn of(viewer: &Viewer) -> Self {
-        let gpu = &viewer.gpu;
-        let device = gpu.headless.device();
-        let mib = |bytes: u64| format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20));
-        let [width, height] = viewer.window_px();
-        let mut facts = vec![
-            ("device", device.facts().name.clone()),
-            ("window", format!("{width} x {height}")),
-            ("device memory", mib(device.memory_held())),
-            ("of pictures", mib(gpu.transient_bytes())),
-        ];
-        if let Some(prepared) = &viewer.prepared {
-            let scene = prepared.scene();
-            let how = match prepared.step() {
-                loading::Step::Part => " (a part for now)",
-                loading::Step::Whole => "",
-                loading::Step::Leveled => " (in levels)",
-            };
-            facts.push(("splats", format!("{}{how}", scene.splat_count())));
-            if let Some(drawn) = viewer.splats_drawn.filter(|drawn| *drawn > 0) {
-                facts.push(("drawn of them", drawn.to_string()));
-            }
-            facts.push(("triangles", scene.triangle_count().to_string()));
-            facts.push(("of the scene", mib(scene.bytes())));
-            facts.extend(prepared.pages().map(|pages| ("pages", pages.words())));
-        }
-        Self {
-            settings: viewer.settings.clone(),
-            encoding: viewer.encoding,
-            edits: viewer.edits.clone(),
-            things: viewer.document.as_ref().map(|document| things(&document.scene)).unwrap_or_default(),
-            thing: viewer.thing,
-            facts,
-            shows_difference: viewer.comparing == Some(Comparing::Difference),
-        }
-    }
-}
-
-impl Viewer {
-    /// Does what the panel asks for.
-    ///
-    /// # Errors
-    /// Of the device.
-    pub fn change(&mut self, change: Change) -> Result<()> {
-        match change {
-            Change::Settings(settings) => self.set(settings),
-            Change::Exposure(stops) => self.set_exposure(stops),
-            Change::Tonemap(tonemap) => {
-                self.encoding.tonemap = tonemap;
-                self.changed();
-            }
-            Change::Edits(edits) => self.edit(edits),
-            Change::SplatScale(scale) => self.set_splat_scale(scale),
-            Change::Act(action) => self.act(action)?,
-        }
-        Ok(())
-    }
-}
 
 /// White on nearly black, 15 to 1, whatever the picture is.
 pub fn visuals() -> egui::Visuals {
@@ -114,10 +22,18 @@ pub fn visuals() -> egui::Visuals {
     visuals
 }
 
+/// How wide the panel is, whatever is in it.
+const WIDTH: f32 = 330.0;
+/// Lists are as tall as the longest of them, and as wide as its longest value.
+const LIST: f32 = 400.0;
+const LIST_WIDTH: f32 = 180.0;
+/// Columns of the passes and their times.
+const COLUMNS: [f32; 3] = [160.0, 72.0, 60.0];
+
 /// The panel.
 pub fn show(context: &Context, state: &State, history: &History, changes: &mut Vec<Change>) {
-    egui::SidePanel::right("panel").default_width(300.0).show(context, |ui| {
-        ScrollArea::vertical().show(ui, |ui| {
+    egui::SidePanel::right("panel").exact_width(WIDTH).resizable(false).show(context, |ui| {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.heading("Scene");
             scene(ui, state, changes);
             ui.separator();
@@ -135,7 +51,8 @@ pub fn show(context: &Context, state: &State, history: &History, changes: &mut V
             Grid::new("facts").num_columns(2).show(ui, |ui| {
                 for (name, value) in &state.facts {
                     ui.label(*name);
-                    ui.label(value);
+                    // What is too long for it is seen under the cursor.
+                    ui.add(Label::new(value).truncate());
                     ui.end_row();
                 }
             });
@@ -155,7 +72,7 @@ fn scene(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
         let mut shown = dragged.unwrap_or(alpha);
         ui.horizontal(|ui| {
             ui.add_space(22.0);
-            let slider = ui.add(Slider::new(&mut shown, 0.05..=1.0).text("alpha"));
+            let slider = ui.add(percent(Slider::new(&mut shown, 0.05..=1.0)).text("of its alpha"));
             if slider.drag_stopped() || (slider.changed() && !slider.dragged()) {
                 (alpha, changed) = (shown, true);
                 ui.data_mut(|data| data.remove::<f32>(key));
@@ -172,7 +89,8 @@ fn scene(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
     let key = Id::new("splat scale");
     let dragged: Option<f32> = ui.data(|data| data.get_temp(key));
     let mut scale = dragged.unwrap_or(state.edits.splat_scale);
-    let slider = ui.add(Slider::new(&mut scale, 0.1..=10.0).logarithmic(true).text("splat scale"));
+    let slider =
+        ui.add(Slider::new(&mut scale, 0.1..=10.0).logarithmic(true).max_decimals(2).text("splat scale"));
     if slider.drag_stopped() || (slider.changed() && !slider.dragged()) {
         changes.push(Change::SplatScale(scale));
         ui.data_mut(|data| data.remove::<f32>(key));
@@ -186,7 +104,10 @@ fn method(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
         for setting in values::IN_PANEL.iter().filter_map(|name| values::setting(name)) {
             let now = (setting.get)(&state.settings);
             ui.label(setting.name).on_hover_text(setting.help.trim());
-            let list = ComboBox::from_id_salt(setting.name).selected_text(&now);
+            let drawn = state.drawn_edges.filter(|_| setting.name == "edges");
+            let shown = drawn.map_or(now.clone(), |drawn| format!("{now} ({drawn} here)"));
+            let list =
+                ComboBox::from_id_salt(setting.name).selected_text(shown).height(LIST).width(LIST_WIDTH);
             let list = list.show_ui(ui, |ui| {
                 for value in values::values(setting) {
                     let help = setting.choices.iter().find(|choice| choice.name == value);
@@ -246,7 +167,7 @@ fn cuts(ui: &mut Ui, changes: &mut Vec<Change>) {
 
 fn light(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
     let mut stops = state.encoding.exposure.0;
-    if ui.add(Slider::new(&mut stops, -8.0..=8.0).text("exposure, stops")).changed() {
+    if ui.add(Slider::new(&mut stops, -8.0..=8.0).max_decimals(2).text("exposure, stops")).changed() {
         changes.push(Change::Exposure(stops));
     }
     ui.horizontal(|ui| {
@@ -259,18 +180,35 @@ fn light(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
     });
 }
 
-fn cost(ui: &mut Ui, history: &History) {
-    let width = ui.available_width().min(400.0);
-    let most = bars(ui, Vec2::new(width, 48.0), &history.frames);
-    if let Some(last) = history.frames.back() {
-        ui.label(format!("frame {last:.2} ms; the tallest of these {most:.2} ms"));
-    }
-    Grid::new("passes").num_columns(3).striped(true).show(ui, |ui| {
-        for (name, times) in history.passes() {
-            ui.label(name);
-            ui.label(times.back().map_or(String::new(), |ms| format!("{ms:.3} ms")));
-            bars(ui, Vec2::new(60.0, 14.0), times);
-            ui.end_row();
-        }
-    });
+/// Shares in percent.
+fn percent(slider: Slider<'_>) -> Slider<'_> {
+    slider.custom_formatter(|share, _| format!("{:.0}%", 100.0 * share)).custom_parser(|text| {
+        text.trim().trim_end_matches('%').parse::<f64>().ok().map(|percent| percent / 100.0)
+    })
 }
+
+fn cost(ui: &mut Ui, history: &History) {
+    let most = bars(ui, Vec2::new(ui.available_width(), 48.0), &history.frames);
+    if let Some(last) = history.frames.back() {
+        ui.add(Label::new(format!("frame {last:.2} ms; the tallest {most:.2} ms")).truncate());
+    }
+    // Not a grid: that knows how wide its columns are only a frame after their texts have come.
+    for (name, times) in history.passes() {
+        ui.horizontal(|ui| {
+            let ms = times.back().map_or(String::new(), |ms| format!("{ms:.3} ms"));
+            let texts = [name.to_owned(), ms];
+            for (text, width) in texts.into_iter().zip(COLUMNS) {
+                let left = Layout::left_to_right(Align::Center);
+                let size = Vec2::new(width, ui.spacing().interact_size.y);
+                ui.allocate_ui_with_layout(size, left, |ui| {
+                    ui.set_min_width(width);
+                    ui.add(Label::new(text).truncate());
+                });
+            }
+            bars(ui, Vec2::new(COLUMNS[2], 14.0), times);
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests;

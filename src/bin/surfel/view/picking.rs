@@ -14,6 +14,9 @@ impl Viewer {
     /// # Errors
     /// Of the device.
     pub fn set_pivot(&mut self) -> Result<()> {
+        if self.tells_of_no_picture() {
+            return Ok(());
+        }
         match self.pick()? {
             Some(picked) => {
                 if let Some(navigation) = &mut self.navigation {
@@ -32,6 +35,9 @@ impl Viewer {
     /// # Errors
     /// Of the device.
     pub fn measure(&mut self) -> Result<()> {
+        if self.tells_of_no_picture() {
+            return Ok(());
+        }
         let Some(picked) = self.pick()? else {
             self.ui.tell("there is no surface under the cursor");
             return Ok(());
@@ -45,6 +51,16 @@ impl Viewer {
         }
         self.copy(&text);
         Ok(())
+    }
+
+    /// Tells that no picture has come yet, in which something could be picked; whether that is so.
+    fn tells_of_no_picture(&mut self) -> bool {
+        let is_none = self.drawn.is_none();
+        if is_none {
+            self.ui.tell("there is no picture yet");
+            self.window.request_redraw();
+        }
+        is_none
     }
 
     fn pick(&mut self) -> Result<Option<Picked>> {

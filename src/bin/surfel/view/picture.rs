@@ -56,6 +56,8 @@ pub struct Cost {
     pub profile: FrameProfile,
     /// Width and height.
     pub size_px: [u32; 2],
+    /// Pipelines were made for it, which takes time on some devices' side, too.
+    pub compiles: bool,
     /// What it was to the picture.
     pub what: &'static str,
     /// From the input that it answers to when its end was seen.
@@ -80,6 +82,8 @@ pub struct Begun {
     pub what: &'static str,
     /// Width and height.
     pub size_px: [u32; 2],
+    /// Pipelines were made for it.
+    pub compiles: bool,
 }
 
 impl Picture {
@@ -195,7 +199,8 @@ impl Picture {
             let profile = profile.unwrap_or_default();
             let secs = profile.span_secs.unwrap_or_else(|| begun.at.elapsed().as_secs_f64());
             let since_input = begun.input.map(|input| input.elapsed());
-            self.costs.push(Cost { secs, profile, size_px: begun.size_px, what: begun.what, since_input });
+            let Begun { size_px, what, compiles, .. } = begun;
+            self.costs.push(Cost { secs, profile, size_px, compiles, what, since_input });
         }
         Ok(all)
     }

@@ -13,18 +13,19 @@ fn popup(context: &Context, name: &str, (align, offset): (Align2, [f32; 2]), add
     area.show(context, |ui| frame.show(ui, add));
 }
 
-/// All keys, in as many columns as there is room for.
-pub fn keys(context: &Context) {
+/// All keys, in as many columns as there is room for; whether they have it from left to right.
+pub fn keys(context: &Context) -> bool {
     const COLUMN_POINTS: f32 = 480.0;
     let size = context.content_rect().size();
     let columns = ((size.x / COLUMN_POINTS) as usize).clamp(1, 3);
+    let mut has_room = false;
     popup(context, "keys", (Align2::CENTER_CENTER, [0.0; 2]), |ui| {
         ui.set_max_size(size - Vec2::splat(60.0));
-        ScrollArea::both().show(ui, |ui| {
+        let shown = ScrollArea::both().show(ui, |ui| {
             let of_keys = BINDINGS.iter().map(|binding| (binding.key, binding.help));
             let lines: Vec<(&str, &str)> = MOUSE.iter().copied().chain(of_keys).collect();
             let rows = lines.len().div_ceil(columns);
-            Grid::new("keys").num_columns(2 * columns).spacing([16.0, 3.0]).show(ui, |ui| {
+            Grid::new("keys").num_columns(2 * columns).spacing([12.0, 3.0]).show(ui, |ui| {
                 for row in 0..rows {
                     for (key, help) in lines.iter().skip(row).step_by(rows) {
                         ui.add(Label::new(RichText::new(*key).strong()).extend());
@@ -34,7 +35,9 @@ pub fn keys(context: &Context) {
                 }
             });
         });
+        has_room = shown.content_size.x <= shown.inner_rect.width();
     });
+    has_room
 }
 
 /// What is being read, and messages.
@@ -52,8 +55,24 @@ pub fn messages(context: &Context, reading: Option<&str>, texts: &[&str]) {
     });
 }
 
-/// What the colors of differences mean, in steps of 8 bits: those of `glsl/view_show.frag.glsl`.
-pub fn color_bar(context: &Context) {
+/// Which of two pictures is where.
+pub fn compared(context: &Context, labels: &[(Align2, String)]) {
+    for (number, (align, text)) in labels.iter().enumerate() {
+        let inward = -align.to_sign().x;
+        // Beside the panel, not below it.
+        let panel = context.content_rect().right() - context.available_rect().right();
+        let x = 12.0 * inward - 0.5 * (1.0 - inward) * panel;
+        // Beside each other, or as wide as the window.
+        let width = context.available_rect().width() / labels.len() as f32 - 48.0;
+        popup(context, &format!("compared {number}"), (*align, [x, 12.0]), |ui| {
+            ui.set_max_width(width.max(1.0));
+            ui.label(text);
+        });
+    }
+}
+
+/// Which pictures differ, and what the colors of differences mean, in steps of 8 bits: those of `glsl/view_show.frag.glsl`.
+pub fn color_bar(context: &Context, label: &str) {
     const RAMP: [Color32; 6] = [
         Color32::BLACK,
         Color32::from_rgb(0, 0, 255),
@@ -63,6 +82,7 @@ pub fn color_bar(context: &Context) {
         Color32::WHITE,
     ];
     popup(context, "color bar", (Align2::CENTER_TOP, [0.0, 12.0]), |ui| {
+        ui.add(Label::new(label).extend());
         ui.add(Label::new("difference, in steps of 8 bits").extend());
         let (response, painter) = ui.allocate_painter(Vec2::new(270.0, 34.0), egui::Sense::hover());
         let bar = response.rect.shrink2(Vec2::new(10.0, 0.0));
@@ -83,4 +103,24 @@ pub fn color_bar(context: &Context) {
         }
         painter.add(mesh);
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_keys_have_room_in_windows_of_usual_widths() {
+        for width in [640.0, 1024.0, 1280.0, 1440.0, 1920.0] {
+            let context = Context::default();
+            let rect = egui::Rect::from_min_size(egui::Pos2::ZERO, Vec2::new(width, 768.0));
+            let mut has_room = false;
+            // What is laid out for the first time does not know its size yet.
+            for _ in 0..3 {
+                let input = egui::RawInput { screen_rect: Some(rect), ..Default::default() };
+                let _ = context.run(input, |context| has_room = keys(context));
+            }
+            assert!(has_room, "{width}");
+        }
+    }
 }

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use surfel::{Error, ErrorKind, Result};
 
 use super::{
+    anchor::Anchor,
     device::{is_device_lost, open_again},
     ui::Ui,
     viewer::Viewer,
@@ -35,7 +36,7 @@ impl Viewer {
             return Err(error);
         }
         self.lost = Some(now);
-        self.prepared = None;
+        (self.prepared, self.anchor) = (None, Anchor::default());
         self.gpu = open_again(&self.window, &mut self.gpu, &self.options.device)?;
         let reading = self.ui.reading.take();
         self.ui = Ui::new(self.window.scale_factor() as f32);

@@ -13,19 +13,17 @@ use super::{
     document::Document,
     frame_desc::{Drawn, FrameDesc, SceneView},
     keys::Comparing,
-    loading::Step,
     on_device::{OnDevice, Paged},
     overlay::OverlayFrame,
     picture::Use,
     printed,
     refine::Refinement,
     show::{ShowDesc, Shown},
+    told::Step,
     viewer::Viewer,
 };
 use crate::console;
 
-/// The camera rests once it has not moved for so long.
-const REST: Duration = Duration::from_millis(25);
 /// How soon the cost of a frame is looked for again that is not done.
 const COST: Duration = Duration::from_millis(10);
 /// How soon pages are looked for again.
@@ -36,10 +34,12 @@ const TIDY: Duration = Duration::from_millis(500);
 impl Viewer {
     /// When there is something to do without an event.
     pub fn next_wake(&mut self, now: Instant) -> Option<Instant> {
-        let rest = self.moved.map(|moved| moved + REST);
+        let rest = self.moved.filter(|_| !self.anchor.waits()).map(|moved| moved + self.pace.rest());
         let refines = self.refines.filter(|_| self.moved.is_none());
         let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies];
-        let all = [rest, self.files.next_look(), self.ui.next_wake()].into_iter().chain(looks);
+        let all = [rest, self.anchor.next_look(now), self.files.next_look(), self.ui.next_wake()]
+            .into_iter()
+            .chain(looks);
         all.flatten().min().map(|when| when.max(now))
     }
 
@@ -47,10 +47,14 @@ impl Viewer {
     pub fn wake(&mut self) {
         let now = Instant::now();
         self.look_at_files();
-        let rests = self.moved.is_some_and(|moved| now >= moved + REST);
+        // Errors, such as a lost device, come with the next frame, too.
+        if self.hear_anchor().is_err() {
+            self.window.request_redraw();
+        }
+        let rests = !self.anchor.waits() && self.moved.is_some_and(|moved| now >= moved + self.pace.rest());
         let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
         if is_due(self.tidies) {
-            // Errors, such as a lost device, come with the next frame, too.
+            // As above.
             let rests = self.moved.is_none() && self.gpu.is_idle().unwrap_or(true);
             self.tidies = (!rests).then(|| now + TIDY);
             if rests {
@@ -61,6 +65,7 @@ impl Viewer {
                 if self.ui.shows_times() && self.splats_drawn.is_none() && !self.is_stale {
                     let _ = self.count_drawn();
                 }
+                self.look_under_cursor();
             }
         }
         let pages = self.prepared.as_ref().and_then(OnDevice::pages);
@@ -81,10 +86,13 @@ impl Viewer {
     /// # Errors
     /// As [`super::gpu::Gpu::draw`].
     pub fn redraw(&mut self) -> Result<()> {
+        self.hear_anchor()?;
         self.fly();
         self.play();
         let now = Instant::now();
-        let is_moving = self.input.flies() || self.moved.is_some_and(|moved| now < moved + REST);
+        let is_moving = self.input.flies()
+            || self.anchor.waits()
+            || self.moved.is_some_and(|moved| now < moved + self.pace.rest());
         if !is_moving {
             self.moved = None;
         }
@@ -241,9 +249,10 @@ impl Viewer {
             for cost in costs.into_iter().filter(|_| which != Use::Other) {
                 // A picture at rest tells of moving ones where they are the same.
                 if is_moving && (which == Use::Moving || self.pace.is_finest()) {
-                    self.pace.learn(period.map_or(cost.secs, |period| period.as_secs_f64()));
+                    let secs = period.map_or(cost.secs, |period| period.as_secs_f64());
+                    self.pace.learn(secs, cost.compiles);
                 }
-                if cost.what == "whole" {
+                if cost.what == "whole" && !cost.compiles {
                     self.pace.learn_whole(cost.secs);
                 }
                 self.ui.history.push(&cost);

@@ -8,7 +8,7 @@ use surfel::{
     scene::{Camera, Lod, Samples, Settings},
 };
 
-use super::{frame_desc::Ends, loading::Step, viewer::Viewer};
+use super::{frame_desc::Ends, told::Step, viewer::Viewer};
 use crate::picture::samples_unsaid;
 
 /// How soon the device is looked at again.

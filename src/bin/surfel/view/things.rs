@@ -25,7 +25,7 @@ impl Viewer {
             OnThing::Hide => *seen = !*seen,
             OnThing::Alpha(by) => *alpha = stepped(*alpha, by),
         }
-        let how = if *seen { format!("alpha {alpha:.1}") } else { "hidden".to_owned() };
+        let how = if *seen { format!("{:.0}% of its alpha", 100.0 * *alpha) } else { "hidden".to_owned() };
         self.ui.tell(&format!("{} ({} of {count}): {how}", names[self.thing].0, self.thing + 1));
         if edits != self.edits {
             self.edit(edits);

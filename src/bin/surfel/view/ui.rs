@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use egui::{Event, PointerButton, Pos2, RawInput, Rect, ViewportId};
+use egui::{Event, PointerButton, Popup, Pos2, RawInput, Rect, ViewportId};
 use surfel::Result;
 use winit::{
     event::{ElementState, KeyEvent, MouseButton},
@@ -13,11 +13,12 @@ use winit::{
 };
 
 use super::{
+    compared::labels,
     history::History,
     keys::Comparing,
     overlay::OverlayFrame,
-    panel::{self, Change, State},
-    popups,
+    panel, popups,
+    state::{Change, State},
     viewer::Viewer,
 };
 
@@ -92,6 +93,7 @@ impl Ui {
     /// Shows or hides the panel.
     pub fn toggle_panel(&mut self) {
         self.has_panel = !self.has_panel;
+        Popup::close_all(&self.context);
     }
 
     /// Shows or hides the keys.
@@ -99,8 +101,12 @@ impl Ui {
         self.has_keys = !self.has_keys;
     }
 
-    /// Hides all of it.
+    /// Closes the list that is open; without one, hides all of it.
     pub fn close(&mut self) {
+        if self.has_panel && Popup::is_any_open(&self.context) {
+            Popup::close_all(&self.context);
+            return;
+        }
         (self.has_panel, self.has_keys) = (false, false);
         self.messages.clear();
     }
@@ -232,8 +238,11 @@ impl Ui {
             }
             let compiling = self.is_compiling.then_some("compiling shaders");
             popups::messages(context, self.reading.as_deref().or(compiling), &texts);
-            if state.shows_difference {
-                popups::color_bar(context);
+            if let Some((how, names)) = &state.compared {
+                match (how, &labels(*how, names)[..]) {
+                    (Comparing::Difference, [(_, label)]) => popups::color_bar(context, label),
+                    (_, labels) => popups::compared(context, labels),
+                }
             }
         });
         self.has_keyboard = self.context.wants_keyboard_input();
@@ -251,7 +260,7 @@ impl Viewer {
     /// # Errors
     /// Of the device.
     pub fn run_ui(&mut self) -> Result<Option<OverlayFrame>> {
-        if !self.ui.is_shown() && self.comparing != Some(Comparing::Difference) {
+        if !self.ui.is_shown() && self.comparing.is_none() {
             // What was to be drawn again is not there any more.
             self.ui.wakes = None;
             return Ok(None);
@@ -262,5 +271,26 @@ impl Viewer {
         self.gpu.update_overlay(&textures)?;
         changes.into_iter().try_for_each(|change| self.change(change))?;
         Ok(Some(frame))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escape_closes_an_open_list_before_the_panel() {
+        let mut ui = Ui::new(1.0);
+        ui.toggle_panel();
+        Popup::open_id(&ui.context, egui::Id::new("list"));
+        ui.close();
+        assert!(ui.has_panel && !Popup::is_any_open(&ui.context));
+        ui.close();
+        assert!(!ui.has_panel);
+        // A panel that is hidden with its list comes back without.
+        ui.toggle_panel();
+        Popup::open_id(&ui.context, egui::Id::new("list"));
+        ui.toggle_panel();
+        assert!(!Popup::is_any_open(&ui.context));
     }
 }

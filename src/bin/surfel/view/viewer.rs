@@ -1,32 +1,15 @@
-//! A scene in a window: what it is made of, and what comes from elsewhere.
+//! A scene in a window: what it is made of.
 
 use std::{sync::Arc, time::Instant};
 
 use glam::DVec3;
-use surfel::{
-    Error, Result,
-    levels_file::LevelsFile,
-    scene::{Camera, Encoding, Samples, Settings},
-};
+use surfel::scene::{Camera, Encoding, Samples, Settings};
 use winit::window::Window;
 
 use super::{
-    ViewArguments,
-    capture::Clipboard,
-    document::Document,
-    edits::Edits,
-    files::Files,
-    gpu::Gpu,
-    input::Input,
-    keys::Comparing,
-    loading::{Loader, News},
-    navigation::Navigation,
-    on_device::{OnDevice, Paged},
-    options::Options,
-    pace::Pace,
-    path::Path,
-    picture::Use,
-    ui::Ui,
+    ViewArguments, anchor::Anchor, capture::Clipboard, document::Document, edits::Edits, files::Files,
+    gpu::Gpu, input::Input, keys::Comparing, loading::Loader, navigation::Navigation, on_device::OnDevice,
+    options::Options, pace::Pace, path::Path, picture::Use, ui::Ui,
 };
 use crate::console;
 
@@ -39,6 +22,10 @@ pub struct Viewer {
     pub files: Files,
     pub path: Path,
     pub ui: Ui,
+    /// The scene of the document comes to the device.
+    pub prepares: bool,
+    /// The first files are not read to their end yet.
+    pub reads_first: bool,
     /// What the files hold, once they are read.
     pub document: Option<Document>,
     /// The scene on the device.
@@ -61,6 +48,8 @@ pub struct Viewer {
     pub comparing: Option<Comparing>,
     pub split: f32,
     pub clipboard: Clipboard,
+    /// What the wheel goes toward.
+    pub anchor: Anchor,
     /// The point that was measured last.
     pub measured: Option<DVec3>,
     pub options: Options,
@@ -128,6 +117,8 @@ impl Viewer {
             files: Files::default(),
             path,
             drawn: None,
+            prepares: false,
+            reads_first: true,
             document: None,
             prepared: None,
             navigation: None,
@@ -136,6 +127,7 @@ impl Viewer {
             comparing: None,
             split: 0.5,
             clipboard: Clipboard::default(),
+            anchor: Anchor::default(),
             measured: None,
             pace: Pace::default(),
             moved: None,
@@ -173,6 +165,7 @@ impl Viewer {
     /// Something that the picture shows has changed, other than by a camera that moves on.
     pub fn changed(&mut self) {
         (self.is_stale, self.is_unsure) = (true, true);
+        self.anchor.forget();
         self.window.request_redraw();
     }
 
@@ -181,111 +174,6 @@ impl Viewer {
         console::say(text);
         self.ui.tell(text);
         self.window.request_redraw();
-    }
-
-    /// News of the thread that reads files.
-    ///
-    /// # Errors
-    /// Of the first files, or the device.
-    pub fn hear(&mut self, news: News) -> Result<()> {
-        match news {
-            News::Opened(document) => self.opened(*document),
-            News::Prepared(prepared) if self.loader.is_newest(prepared.job) => {
-                self.prepared = Some(OnDevice::Whole(prepared.scene, prepared.step));
-                self.changed();
-                Ok(())
-            }
-            News::Prepared(_) => Ok(()),
-            // It may be for a device that is lost.
-            News::Upload(_, job, answer) if !self.loader.is_newest(job) => {
-                let _ = answer.send(Err(Error::option("scene", "another one has come")));
-                Ok(())
-            }
-            News::Upload(staging, _, answer) => {
-                let done = self.gpu.headless.queue().run_once("upload", |commands| {
-                    // SAFETY: recording; the thread keeps what it uploads to until it has the answer, which comes after the wait.
-                    unsafe { staging.record(commands) };
-                    Ok(())
-                });
-                // A thread that is gone needs no answer.
-                let _ = answer.send(done);
-                Ok(())
-            }
-            #[cfg(feature = "live-shaders")]
-            News::Shaders(compiled) => {
-                self.take_shaders(compiled);
-                Ok(())
-            }
-            News::Failed(error) if self.document.is_none() => Err(error),
-            News::Failed(error) => {
-                self.ui.reading = None;
-                self.tell(&error.to_string());
-                Ok(())
-            }
-        }
-    }
-
-    fn opened(&mut self, document: Document) -> Result<()> {
-        let first = self.document.is_none();
-        if first {
-            let said = (self.options.said)(document.picture.over(self.settings.clone()));
-            self.samples = said.samples;
-            self.settings = Settings { samples: Samples(1), ..said };
-            self.other = self.settings.clone();
-            self.first.0 = self.settings.clone();
-        }
-        if let Err(error) = self.settings.check_scene(&document.scene) {
-            if first {
-                return Err(error);
-            }
-            // What is shown stays.
-            self.ui.reading = None;
-            self.keeps_camera = false;
-            self.tell(&error.to_string());
-            return Ok(());
-        }
-        match &mut self.navigation {
-            Some(navigation) if self.keeps_camera => navigation.set_ball(document.ball),
-            navigation => *navigation = Some(Navigation::new(document.camera, document.ball)),
-        }
-        if !(self.keeps_camera && self.edits.things.len() == Edits::none(&document.scene).things.len()) {
-            (self.edits, self.thing) = (Edits::none(&document.scene), 0);
-        }
-        let names: Vec<_> = document.inputs.iter().map(|input| input.name.as_str()).collect();
-        self.window.set_title(&format!("{} - surfel (? shows the keys)", names.join(", ")));
-        self.ui.reading = None;
-        self.files.watch(&document.files.files);
-        self.document = Some(document);
-        let is_other = !std::mem::take(&mut self.keeps_camera);
-        // Pages of what the file was.
-        self.prepared.take_if(|prepared| prepared.pages().is_some());
-        self.prepare(is_other);
-        self.changed();
-        Ok(())
-    }
-
-    /// Brings the scene to the device, with the changes of now. `is_other`: it is not that which is shown, so that a part of it is better
-    /// than nothing.
-    pub fn prepare(&mut self, is_other: bool) {
-        let Some(document) = &self.document else { return };
-        let Some(path) = &document.paged else {
-            let device = self.gpu.headless.device().clone();
-            self.loader.prepare(Arc::clone(&document.scene), self.edits.clone(), device, is_other);
-            return;
-        };
-        if !is_other && self.edits.splat_scale != 1.0 {
-            self.edits.splat_scale = 1.0;
-            self.ui.tell("splats of files that are read in pages keep their size");
-        }
-        if is_other || self.prepared.as_ref().is_none_or(|prepared| prepared.pages().is_none()) {
-            let paged = LevelsFile::open(path).and_then(|file| {
-                Paged::new(file, self.options.most_paged_bytes, document.scene.lights.clone())
-            });
-            match paged {
-                Ok(paged) => self.prepared = Some(OnDevice::Paged(Box::new(paged))),
-                Err(error) => self.tell(&error.to_string()),
-            }
-        }
     }
 
     /// Closes the window; keeps what was compiled.

@@ -33,11 +33,27 @@ fn what_is_under_the_cursor_stays_there_while_zooming_and_follows_while_panning(
         let distance = navigation.distance();
         let point = navigation.at([77.0, 210.0], WINDOW_PX, distance);
         assert_near(place_px(&navigation, point), [77.0, 210.0]);
-        navigation.zoom(0.4, [77.0, 210.0], WINDOW_PX);
+        navigation.zoom(0.4, ([77.0, 210.0], None), WINDOW_PX);
         assert_near(place_px(&navigation, point), [77.0, 210.0]);
         navigation.set_pivot(point);
         navigation.pan([10.0, -5.0], WINDOW_PX);
         assert_near(place_px(&navigation, point), [87.0, 205.0]);
+    }
+}
+
+#[test]
+fn the_surface_under_the_cursor_stays_there_and_is_never_passed() {
+    let mut navigation = start();
+    navigation.orbit([31.0, 17.0], WINDOW_PX);
+    let (cursor, depth) = ([77.0, 210.0], 0.3 * navigation.distance());
+    let surface = navigation.at(cursor, WINDOW_PX, depth);
+    let mut before = navigation.camera.eye.distance(surface);
+    for _ in 0..60 {
+        navigation.zoom(0.8, (cursor, Some(surface)), WINDOW_PX);
+        assert_near(place_px(&navigation, surface), cursor);
+        let now = navigation.camera.eye.distance(surface);
+        assert!((now / before - 0.8).abs() < 1e-3, "{now} of {before}");
+        before = now;
     }
 }
 
@@ -81,10 +97,10 @@ fn a_turntable_keeps_its_axis_upright_and_stops_at_the_poles() {
 fn presets_are_sides_of_the_scene_whatever_is_up() {
     let mut navigation = start();
     let direction = |n: &Navigation| (n.camera.eye - n.camera.target).normalize();
-    navigation.see_from(View::Right, WINDOW_PX);
+    navigation.see_from(View::Right, &start().ball, WINDOW_PX);
     assert!(direction(&navigation).distance(DVec3::X) < 1e-12);
     navigation.set_axis(DVec3::Z);
-    navigation.see_from(View::Top, WINDOW_PX);
+    navigation.see_from(View::Top, &start().ball, WINDOW_PX);
     assert!(direction(&navigation).distance(DVec3::Z) < 1e-12);
     // From the pole, too, a turntable goes on.
     let right = navigation.axes()[0];
@@ -98,7 +114,7 @@ fn presets_are_sides_of_the_scene_whatever_is_up() {
 #[test]
 fn each_axis_is_up_in_its_turn_but_those_that_the_camera_looks_along() {
     let mut navigation = start();
-    navigation.see_from(View::Front, WINDOW_PX);
+    navigation.see_from(View::Front, &start().ball, WINDOW_PX);
     let names: Vec<_> = (0..5).map(|_| navigation.next_axis()).collect();
     assert_eq!(names, ["-x", "-y", "x", "y", "-x"]);
     assert_eq!(navigation.camera.up, DVec3::NEG_X);
@@ -125,12 +141,12 @@ fn no_zoom_and_no_flight_ends_in_a_camera_without_a_picture() {
         }
         for factor in [0.5, 2.0] {
             for _ in 0..200 {
-                navigation.zoom(factor, [3.0, 299.0], WINDOW_PX);
+                navigation.zoom(factor, ([3.0, 299.0], None), WINDOW_PX);
                 navigation.fly([0.1, -0.1, 0.3]);
                 navigation.camera.validate().unwrap();
             }
         }
-        navigation.fit(WINDOW_PX);
+        navigation.fit(&start().ball, WINDOW_PX);
         assert!((navigation.camera.target - navigation.ball.center).length() < 1e-12);
     }
 }

@@ -1,0 +1,143 @@
+//! What comes from elsewhere: files that are read, and scenes on their way to the device.
+
+use std::sync::Arc;
+
+use surfel::{
+    Error, Result,
+    levels_file::LevelsFile,
+    scene::{Samples, Settings},
+};
+
+use super::{
+    document::Document,
+    edits::Edits,
+    navigation::Navigation,
+    on_device::{OnDevice, Paged},
+    told::News,
+    viewer::Viewer,
+};
+
+impl Viewer {
+    /// News of the thread that reads files.
+    ///
+    /// # Errors
+    /// Of the first files, or the device.
+    pub fn hear(&mut self, news: News) -> Result<()> {
+        match news {
+            News::Opened(document) => self.opened(*document),
+            News::Prepared(prepared) if self.loader.is_newest(prepared.job) => {
+                self.prepared = Some(OnDevice::Whole(prepared.scene, prepared.step));
+                self.prepares = !prepared.is_last;
+                self.changed();
+                Ok(())
+            }
+            News::Prepared(_) => Ok(()),
+            // It may be for a device that is lost.
+            News::Upload(_, job, answer) if !self.loader.is_newest(job) => {
+                let _ = answer.send(Err(Error::option("scene", "another one has come")));
+                Ok(())
+            }
+            News::Upload(staging, _, answer) => {
+                let done = self.gpu.headless.queue().run_once("upload", |commands| {
+                    // SAFETY: recording; the thread keeps what it uploads to until it has the answer, which comes after the wait.
+                    unsafe { staging.record(commands) };
+                    Ok(())
+                });
+                // A thread that is gone needs no answer.
+                let _ = answer.send(done);
+                Ok(())
+            }
+            #[cfg(feature = "live-shaders")]
+            News::Shaders(compiled) => {
+                self.take_shaders(compiled);
+                Ok(())
+            }
+            News::Unread(error) => self.unread(error),
+            News::Failed(error) => {
+                self.prepares = false;
+                self.tell(&error.to_string());
+                Ok(())
+            }
+        }
+    }
+
+    /// Files can't be read.
+    fn unread(&mut self, error: Error) -> Result<()> {
+        let is_first = std::mem::take(&mut self.reads_first);
+        if is_first && !self.files.are_dropped() {
+            return Err(error);
+        }
+        self.ui.reading = None;
+        let stays = if self.prepared.is_some() { "; what is shown stays" } else { "" };
+        self.tell(&format!("{error}{stays}"));
+        if self.prepares {
+            // Reading has cut it short.
+            self.prepare(self.prepared.is_none());
+        }
+        self.look_at_files();
+        Ok(())
+    }
+
+    fn opened(&mut self, document: Document) -> Result<()> {
+        let is_first = std::mem::take(&mut self.reads_first);
+        let first = self.document.is_none();
+        if first {
+            let said = (self.options.said)(document.picture.over(self.settings.clone()));
+            self.samples = said.samples;
+            self.settings = Settings { samples: Samples(1), ..said };
+            self.other = self.settings.clone();
+            self.first.0 = self.settings.clone();
+        }
+        if let Err(error) = self.settings.check_scene(&document.scene) {
+            self.keeps_camera = false;
+            self.reads_first = is_first;
+            return self.unread(error);
+        }
+        match &mut self.navigation {
+            Some(navigation) if self.keeps_camera => navigation.set_ball(document.ball),
+            navigation => *navigation = Some(Navigation::new(document.camera, document.ball)),
+        }
+        if !(self.keeps_camera && self.edits.things.len() == Edits::none(&document.scene).things.len()) {
+            (self.edits, self.thing) = (Edits::none(&document.scene), 0);
+        }
+        let names: Vec<_> = document.inputs.iter().map(|input| input.name.as_str()).collect();
+        self.window.set_title(&format!("{} - surfel (? shows the keys)", names.join(", ")));
+        self.ui.reading = None;
+        self.files.watch(&document.files.files);
+        self.document = Some(document);
+        let is_other = !std::mem::take(&mut self.keeps_camera);
+        // Pages of what the file was.
+        self.prepared.take_if(|prepared| prepared.pages().is_some());
+        self.prepare(is_other);
+        self.changed();
+        // Those that came while the first were read.
+        self.look_at_files();
+        Ok(())
+    }
+
+    /// Brings the scene to the device, with the changes of now. `is_other`: it is not that which is shown, so that a part of it is better
+    /// than nothing.
+    pub fn prepare(&mut self, is_other: bool) {
+        let Some(document) = &self.document else { return };
+        let Some(path) = &document.paged else {
+            let device = self.gpu.headless.device().clone();
+            self.prepares = true;
+            self.loader.prepare(Arc::clone(&document.scene), self.edits.clone(), device, is_other);
+            return;
+        };
+        self.prepares = false;
+        if !is_other && self.edits.splat_scale != 1.0 {
+            self.edits.splat_scale = 1.0;
+            self.ui.tell("splats of files that are read in pages keep their size");
+        }
+        if is_other || self.prepared.as_ref().is_none_or(|prepared| prepared.pages().is_none()) {
+            let paged = LevelsFile::open(path).and_then(|file| {
+                Paged::new(file, self.options.most_paged_bytes, document.scene.lights.clone())
+            });
+            match paged {
+                Ok(paged) => self.prepared = Some(OnDevice::Paged(Box::new(paged))),
+                Err(error) => self.tell(&error.to_string()),
+            }
+        }
+    }
+}
