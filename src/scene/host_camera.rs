@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DMat4, DQuat, DVec3, DVec4};
 
-use super::{Camera, Window};
+use super::{Camera, Window, placement::MIRRORED};
 use crate::error::{Error, Result};
 
 /// An engine's camera: any motion, any perspective or orthographic projection with square pixels: off-center, jittered, with y up or down,
@@ -44,6 +44,13 @@ fn refused<T>(problem: impl Into<String>) -> Result<T> {
 }
 
 impl HostCamera {
+    /// The camera of a left-handed world, as of Direct3D, Unity or Unreal, whose matrices these are: the same pixels and depths of splats that are
+    /// mirrored (`transformed` by `DAffine3::from_scale` of (1, 1, −1)) and placed by [`super::Placement::of_left_handed`].
+    #[must_use]
+    pub fn of_left_handed(self) -> Self {
+        Self { view_from_world: self.view_from_world * MIRRORED, ..self }
+    }
+
     /// The camera that gives a picture of this size, and the engine's depth.
     ///
     /// # Errors
@@ -62,7 +69,8 @@ impl HostCamera {
         let focal = [0.5 * size[0] * x.x, 0.5 * size[1] * y.y];
         if (focal[0].abs() / focal[1].abs() - 1.0).abs() > ROUNDING {
             return refused(format!(
-                "a pixel is {:.6} times as high as wide: expected square ones, of {}x{} as of the projection",
+                "a pixel is {:.6} times as high as wide: expected square ones, of {}x{} as of the projection, whose aspect is that of \
+                 the picture's size in pixels",
                 focal[0].abs() / focal[1].abs(),
                 size_px[0],
                 size_px[1]
@@ -74,8 +82,8 @@ impl HostCamera {
         let into = right.cross(down);
         if is_perspective && into.dot(in_world(DVec3::Z * forward)) < 0.0 {
             return refused(
-                "the picture is a mirror's: does y point down in it, or is the viewport flipped? A left-handed world must be \
-                 mirrored, and its splats with it",
+                "the picture is a mirror's: does y point down in it, or is the viewport flipped? Of a left-handed world see \
+                 HostCamera::of_left_handed",
             );
         }
         // In view-space depths that grow forward.

@@ -16,6 +16,10 @@ pub struct Placement {
     pub translation: DVec3,
 }
 
+/// Between a left-handed world, as of Direct3D, Unity or Unreal, and the right-handed one that its splats are drawn in: z points the other way.
+pub(crate) const MIRRORED: DMat4 =
+    DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0.0, 0.0, -1.0, 0.0), DVec4::W);
+
 /// What a matrix may differ from a similarity by, as a part of its scale: f32 matrices are taken.
 const ROUNDING: f64 = 1e-5;
 
@@ -56,6 +60,15 @@ impl Placement {
         }
         let rotation = DQuat::from_mat3(&turn).normalize();
         Ok(Self { rotation, scale, translation: world_from_scene.w_axis.truncate() })
+    }
+
+    /// The placement of a scene in a left-handed world, by the matrix that takes points there as that world has them. The scene's own splats are
+    /// mirrored (`transformed` by `DAffine3::from_scale` of (1, 1, −1)), and the camera is [`super::HostCamera::of_left_handed`].
+    ///
+    /// # Errors
+    /// As [`Self::of_matrix`].
+    pub fn of_left_handed(world_from_scene: &DMat4) -> Result<Self> {
+        Self::of_matrix(&(MIRRORED * *world_from_scene * MIRRORED))
     }
 
     /// The matrix, of columns, that takes points of the scene to the world.

@@ -112,3 +112,37 @@ fn what_is_no_camera_is_refused_by_name() {
     let view_from_world = plain.view_from_world * DMat4::from_scale(DVec3::splat(1.001));
     assert!(problem(HostCamera { view_from_world, ..plain }).contains("expected a motion"));
 }
+
+/// Engines of left-handed worlds look along +z, y up.
+#[test]
+fn a_left_handed_world_is_drawn_mirrored_with_its_own_matrices() {
+    use crate::scene::Placement;
+    use glam::dcamera::lh;
+
+    let eye = DVec3::new(3.0, 2.0, -4.0);
+    let host = HostCamera {
+        view_from_world: lh::view::look_at_mat4(eye, DVec3::new(0.1, 0.0, 0.3), DVec3::Y),
+        clip_from_view: lh::proj::directx::perspective(0.9, 160.0 / 120.0, 0.1, 50.0),
+        flips_y: true,
+    };
+    assert!(host.camera(SIZE_PX).unwrap_err().to_string().contains("of_left_handed"));
+    let (camera, depth) = host.of_left_handed().camera(SIZE_PX).unwrap();
+    let DepthOfHost::Perspective { a, b } = depth else { panic!("{depth:?}") };
+    let turned = DQuat::from_rotation_y(0.7) * DQuat::from_rotation_x(0.4);
+    let world_from_scene =
+        DMat4::from_scale_rotation_translation(DVec3::splat(1.5), turned, DVec3::new(0.2, -0.3, 0.4));
+    let placement = Placement::of_left_handed(&world_from_scene).unwrap();
+    for point in [DVec3::ZERO, DVec3::new(0.3, -0.4, 0.2), DVec3::new(-0.6, 0.5, 0.1)] {
+        let clip = host.clip_from_view * host.view_from_world * world_from_scene * point.extend(1.0);
+        let mirrored = point * DVec3::new(1.0, 1.0, -1.0);
+        let seen = camera.view_from_world().point(placement.world_from_scene().transform_point3(mirrored));
+        let focal_px = camera.focal_px(SIZE_PX[1]);
+        let at = [0, 1].map(|i| camera.middle_px(SIZE_PX)[i] + focal_px * seen[i] / seen.z);
+        let expected = [0.5 * (clip.x / clip.w + 1.0) * 160.0, 0.5 * (1.0 - clip.y / clip.w) * 120.0];
+        assert!(
+            (at[0] - expected[0]).abs() < 1e-9 && (at[1] - expected[1]).abs() < 1e-9,
+            "{at:?} {expected:?}"
+        );
+        assert!((a + b / seen.z - clip.z / clip.w).abs() < 1e-12, "{seen}");
+    }
+}
