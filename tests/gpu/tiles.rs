@@ -8,13 +8,14 @@ use crate::common::{
     ALL, PICTURE, assert_same_bits, compare::F32, passes, render, render_as, scenes, shared, with,
     with_limits,
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use surfel::{
     hard_scenes::{Hard, sphere, transparent},
     passes::FramePlan,
     renderer::{Frame, Headless, Wanted},
     scene::{
-        Accumulate, Camera, Colors, Edges, Filter, Object, Rasterizer, Scene, Settings, TileInvocations,
+        Accumulate, Camera, Clips, Colors, Edges, Filter, Object, Rasterizer, Scene, Settings, Shapes,
+        Splats, TileInvocations, Window,
     },
     vk::Limits,
 };
@@ -158,12 +159,43 @@ fn large_splats_and_small_ones_are_one_picture() {
     assert!(different(&tiles, &points) <= 10, "{}", different(&tiles, &points));
 }
 
+/// A disk whose box has 32 by 32 tiles at the end of an image of 256 by 256, none of which it touches in the corners: the rect that means something else if
+/// all of them are left out.
+#[test]
+fn the_last_of_small_rects_is_a_rect() {
+    let mut headless = shared();
+    let mut disk = sphere(1, DVec3::ZERO);
+    disk.closed = false;
+    disk.splats = Splats {
+        positions: vec![DVec3::ZERO],
+        shapes: Shapes::Disks { normals: vec![Vec3::Z], radii: vec![127.0] },
+        colors: Colors::Uniform([1.0; 4]),
+        clips: Clips::default(),
+    };
+    let camera = Camera {
+        orthographic_height: Some(2048.0),
+        window: Window { whole_px: None, corner_px: [-896.0; 2] },
+        ..scenes::builder::camera([0.0, 0.0, 500.0], [0.0; 3])
+    };
+    let hard = with(&hard(vec![disk], camera, [2048, 2048]), |s| {
+        s.filter = Filter::None;
+        s.background = None;
+    });
+    let frame = by_tiles(&mut headless, &hard, PICTURE);
+    let seen: Vec<usize> = (0..2048 * 2048).filter(|i| frame.linear[*i][3] > 0.5).collect();
+    let rows = [seen.first(), seen.last()].map(|i| i.map(|i| i / 2048));
+    assert_eq!(rows, [Some(1793), Some(2046)], "of {}", seen.len());
+    let area = std::f64::consts::PI * 127.0 * 127.0;
+    assert!((seen.len() as f64 / area - 1.0).abs() < 0.01, "{} of {area}", seen.len());
+}
+
 /// Most splats of these are large, so that their list has several of those that a workgroup looks at together.
 #[test]
 fn large_splats_that_workgroups_list_are_whole_and_in_order() {
     let mut headless = shared();
     let camera = scenes::builder::camera([0.0, 0.0, 1.7], [0.0; 3]);
-    let hard = hard(vec![sphere(60, DVec3::ZERO)], camera, [1024, 1024]);
+    // Wider than 2048 pixels, rects of tiles have room for no more than 96 along a side.
+    let hard = hard(vec![sphere(60, DVec3::ZERO)], camera, [2560, 700]);
     let [columns, pixels] = [TileInvocations::Column, TileInvocations::Pixel]
         .map(|own| by_tiles(&mut headless, &by(&hard, own), PICTURE));
     assert!(passes(&pixels).contains(&"sum large splats"), "{:?}", passes(&pixels));
