@@ -38,7 +38,7 @@ const COS_CORNER: f64 = 0.766;
 const NEAR: f64 = 1e-3;
 
 /// How often a triangle is cut in two.
-const MOST_CUTS: u32 = 5;
+const MOST_CUTS: u32 = 8;
 
 /// The splat of a triangle.
 pub(super) struct ClippedEllipse {

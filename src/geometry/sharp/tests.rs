@@ -4,13 +4,15 @@ mod distances;
 mod gaps;
 mod rival;
 
+use std::f64::consts::TAU;
+
 use glam::{DVec2, DVec3};
 
 use super::{Clipping, SharpOptions, sharp_splats};
 use crate::{
     geometry::clip::removes,
     hard_scenes::parts::{bored_block, cube, cylinder},
-    scene::{Clip, Shapes, Splats},
+    scene::{Clip, Mesh, Shapes, Splats},
 };
 
 fn few(count: u64, clipping: Clipping) -> SharpOptions {
@@ -138,4 +140,54 @@ fn where_few_splats_bend_by_much_they_have_no_ears_either() {
         places(&splats).iter().map(|(_, p)| p.truncate().abs().max_element() - 1.0).fold(0.0, f64::max);
     println!("{} splats stick out by {beyond}; {report:?}", splats.len());
     assert!(beyond < 0.06, "{beyond}");
+}
+
+/// A square plate with a small hole near a corner, whose flat sides are slivers from the hole to the plate's corners: their ellipses reach over many sides of
+/// the hole, and are cut in two until none does.
+#[test]
+fn slivers_around_a_hole_do_not_reach_into_it() {
+    const SIDES: u32 = 40;
+    let (hole, corners) =
+        (DVec2::new(6.0, 6.0), [[10.0, 10.0], [-10.0, 10.0], [-10.0, -10.0], [10.0, -10.0]]);
+    let mut mesh = Mesh::default();
+    // Of each height the hole, then the corners.
+    for z in [0.0, 1.0] {
+        let rim = (0..SIDES).map(|i| hole + DVec2::from_angle(TAU * f64::from(i) / f64::from(SIDES)));
+        mesh.positions.extend(rim.chain(corners.map(DVec2::from)).map(|p| p.extend(z)));
+    }
+    let corner_of = |i: u32| {
+        (0..4).min_by(|a, b| {
+            let middle = DVec2::from_angle(TAU * (f64::from(i) + 0.5) / f64::from(SIDES));
+            let toward = |k: usize| -(DVec2::from(corners[k]) - hole).normalize().dot(middle);
+            toward(*a).total_cmp(&toward(*b))
+        })
+    };
+    let mut flat = Vec::new();
+    for i in 0..SIDES {
+        let (next, [own, other]) = ((i + 1) % SIDES, [i, i + 1].map(|i| corner_of(i).unwrap() as u32));
+        flat.push([i, SIDES + own, next]);
+        if own != other {
+            flat.push([next, SIDES + own, SIDES + other]);
+        }
+    }
+    let up = SIDES + 4;
+    mesh.triangles.extend(flat.iter().map(|[a, b, c]| [a + up, b + up, c + up]));
+    mesh.triangles.extend(flat.iter().map(|[a, b, c]| [*a, *c, *b]));
+    let around = |first: u32, count: u32| (0..count).map(move |i| [first + i, first + (i + 1) % count]);
+    for [a, b] in around(0, SIDES) {
+        mesh.triangles.extend([[a, a + up, b + up], [a, b + up, b]]);
+    }
+    for [a, b] in around(SIDES, 4) {
+        mesh.triangles.extend([[a, b, b + up], [a, b + up, a + up]]);
+    }
+    let (splats, report) = sharp_splats(&mesh, &SharpOptions::default(), &()).unwrap();
+    println!("{} splats, {report:?}", splats.len());
+    assert!(report.closed && report.crowded == 0 && splats.len() < 500, "{report:?}");
+    let Shapes::Ellipses { s, t } = &splats.shapes else { panic!("ellipses") };
+    for (i, p) in places(&splats) {
+        if s[i].cross(t[i]).normalize().z.abs() > 0.9999 {
+            let (radius, reach) = (p.truncate().distance(hole), p.truncate().abs().max_element());
+            assert!(radius > 0.99 && reach < 10.01, "{p} of {i}");
+        }
+    }
 }
