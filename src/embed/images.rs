@@ -1,25 +1,58 @@
 //! What a view's passes leave for its draws.
 
+use std::sync::Arc;
+
 use ash::vk;
 
 use crate::{
     error::Result,
-    graph::ImageState,
+    graph::{
+        Block, ImageDesc as Wanted, ImageState, MemoryClass, MemoryNeed, ResourceDesc, Usage,
+        execute::{Blocks, FRAMES_OF_LATE, memory_need},
+    },
     passes::host::{OBJECTS_FORMAT, SURFACE_DEPTH_FORMAT},
-    vk::{Device, Image, ImageDesc},
+    vk::{Device, Image, ImageDesc, Memory},
 };
 
-/// Kept from frame to frame: nothing is allocated as long as the size stays.
+/// Kept from frame to frame: no memory is allocated as long as no frame is larger than those before.
+#[derive(Default)]
 pub(super) struct Images {
-    /// The opaque surface: linear light, straight alpha.
-    pub surface: Image,
-    /// Its own depth.
-    pub depth: Image,
-    /// Transparent layers alike, where there are any.
-    pub layers: Option<Image>,
-    /// Whose the opaque surface is, where the host asks for it.
-    pub objects: Option<Image>,
+    surface: Sizes,
+    depth: Sizes,
+    layers: Sizes,
+    objects: Sizes,
+    frames: u64,
 }
+
+/// Those of one frame.
+pub(super) struct OfFrame<'a> {
+    /// The opaque surface: linear light, straight alpha.
+    pub surface: &'a Image,
+    /// Its own depth.
+    pub depth: &'a Image,
+    /// Transparent layers alike, where there are any.
+    pub layers: Option<&'a Image>,
+    /// Whose the opaque surface is, where the host asks for it.
+    pub objects: Option<&'a Image>,
+}
+
+/// Images for one purpose, one for each size that the view had of late, all in one place of memory: each frame writes its own anew.
+#[derive(Default)]
+struct Sizes {
+    /// The one that was used last is the first.
+    placed: Vec<Placed>,
+    blocks: Blocks,
+}
+
+struct Placed {
+    // Dropped, and so destroyed, before the memory that it is bound to.
+    image: Image,
+    block: [Block; 1],
+    memory: Vec<Arc<Memory>>,
+}
+
+/// Sizes of which images are kept at most.
+const MOST_SIZES: usize = 8;
 
 /// The draws of the frame before read them; they write nothing that has to be seen.
 pub(super) const BEFORE: ImageState = ImageState {
@@ -34,37 +67,79 @@ pub(super) const AFTER: ImageState = ImageState { layout: vk::ImageLayout::READ_
 impl Images {
     /// Bytes of device memory.
     pub fn bytes(&self) -> u64 {
-        let all = [Some(&self.surface), Some(&self.depth), self.layers.as_ref(), self.objects.as_ref()];
-        all.into_iter().flatten().map(Image::bytes).sum()
+        [&self.surface, &self.depth, &self.layers, &self.objects]
+            .map(|sizes| sizes.blocks.bytes())
+            .iter()
+            .sum()
     }
 
-    /// Those of a view, the ones there are where they will do.
+    /// Those of a frame, the ones there are where they will do.
+    ///
+    /// # Errors
+    /// Whatever the allocator or the driver answers.
     pub fn fit(
-        kept: Option<Self>,
+        &mut self,
         device: &Device,
         (format, size_px): (vk::Format, [u32; 2]),
         (layers, objects): (bool, bool),
-    ) -> Result<Self> {
+    ) -> Result<OfFrame<'_>> {
+        self.frames += 1;
+        if self.frames.is_multiple_of(FRAMES_OF_LATE) {
+            let all = [&mut self.surface, &mut self.depth, &mut self.layers, &mut self.objects];
+            all.into_iter().for_each(Sizes::give_back);
+        }
         let [width, height] = size_px;
         let extent = vk::Extent2D { width, height };
         let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
-        let image = |name, format| Image::new(device, ImageDesc { name, format, extent, usage });
-        let fits = |kept: &Self| kept.surface.extent() == extent && kept.surface.format() == format;
-        let mut images = match kept.filter(fits) {
-            Some(kept) => kept,
-            None => Self {
-                surface: image("surface for a host", format)?,
-                depth: image("its depth", SURFACE_DEPTH_FORMAT)?,
-                layers: None,
-                objects: None,
-            },
-        };
-        if layers && images.layers.is_none() {
-            images.layers = Some(image("layers for a host", format)?);
+        let desc = |name, format| ImageDesc { name, format, extent, usage };
+        let Self { surface, depth, layers: of_layers, objects: of_objects, .. } = self;
+        let layers = layers.then(|| of_layers.fit(device, desc("layers for a host", format)));
+        let objects = objects.then(|| of_objects.fit(device, desc("objects for a host", OBJECTS_FORMAT)));
+        Ok(OfFrame {
+            surface: surface.fit(device, desc("surface for a host", format))?,
+            depth: depth.fit(device, desc("its depth", SURFACE_DEPTH_FORMAT))?,
+            layers: layers.transpose()?,
+            objects: objects.transpose()?,
+        })
+    }
+}
+
+impl Sizes {
+    fn fit(&mut self, device: &Device, desc: ImageDesc<'_>) -> Result<&Image> {
+        let fits =
+            |Placed { image, .. }: &Placed| image.extent() == desc.extent && image.format() == desc.format;
+        match self.placed.iter().position(fits) {
+            Some(place) => self.placed[..=place].rotate_right(1),
+            // What is refused finds all memory idle next time.
+            None => self.make(device, desc).inspect_err(|_| *self = Self::default())?,
         }
-        if objects && images.objects.is_none() {
-            images.objects = Some(image("objects for a host", OBJECTS_FORMAT)?);
-        }
-        Ok(images)
+        let Placed { image, block, memory } = &self.placed[0];
+        self.blocks.note(block, memory);
+        Ok(image)
+    }
+
+    fn make(&mut self, device: &Device, desc: ImageDesc<'_>) -> Result<()> {
+        let ImageDesc { name, format, extent, usage } = desc;
+        let wanted = ResourceDesc::Image(Wanted { format, extent });
+        let need = memory_need(device, &wanted, Usage::Image(usage))?;
+        let MemoryNeed { size_bytes, alignment_bytes, type_bits } = need;
+        let block = [Block { class: MemoryClass::Images, size_bytes, alignment_bytes, type_bits }];
+        self.placed.truncate(MOST_SIZES - 1);
+        let memory = self.blocks.serve(device, |_| name, &block)?;
+        self.drop_homeless();
+        let image = Image::placed(device, desc, &memory[0], 0)?;
+        self.placed.insert(0, Placed { image, block, memory });
+        Ok(())
+    }
+
+    fn give_back(&mut self) {
+        self.blocks.give_back();
+        self.drop_homeless();
+    }
+
+    /// Drops images of which the memory was replaced or given back: they would hold it.
+    fn drop_homeless(&mut self) {
+        let Self { placed, blocks } = self;
+        placed.retain(|placed| blocks.have(&placed.memory));
     }
 }

@@ -32,7 +32,7 @@ pub struct View {
     pub(super) device: Device,
     pub(super) rendering: Rendering,
     slot: FrameSlot,
-    images: Option<Images>,
+    images: Images,
     /// Objects as the host numbers them; tints of what is opaque, and of what is transparent.
     objects: Table,
     tints: [Table; 2],
@@ -79,7 +79,7 @@ impl View {
             device,
             rendering: rendering.clone(),
             slot,
-            images: None,
+            images: Images::default(),
             objects: Table::default(),
             tints: Default::default(),
             prepared: None,
@@ -143,9 +143,7 @@ impl View {
         let depth = HostDepth { corner_px: frame.corner_px, ..host_depth(depth, &camera, plan.range) };
         let format = self.rendering.surface_format();
         let size_px = if commands.is_some() { settings.size_px } else { [1; 2] };
-        let images =
-            Images::fit(self.images.take(), &self.device, (format, size_px), (layered, finds_objects))?;
-        let images = self.images.insert(images);
+        let images = self.images.fit(&self.device, (format, size_px), (layered, finds_objects))?;
 
         let counts_draws = self.device.facts().draw_indirect_count;
         let mut needs = passes::needs(&plan, settings, counts_draws);
@@ -180,15 +178,10 @@ impl View {
             imports.push((handle.id(), Physical::Image(image.raw(), image.view())));
             handle
         };
-        let mut surface = import("surface for a host", &images.surface);
-        let mut surface_depth = import("its depth", &images.depth);
-        let mut layers =
-            images.layers.as_ref().filter(|_| layered).map(|image| import("layers for a host", image));
-        let mut objects = images
-            .objects
-            .as_ref()
-            .filter(|_| finds_objects)
-            .map(|image| import("objects for a host", image));
+        let mut surface = import("surface for a host", images.surface);
+        let mut surface_depth = import("its depth", images.depth);
+        let mut layers = images.layers.map(|image| import("layers for a host", image));
+        let mut objects = images.objects.map(|image| import("objects for a host", image));
         let hides = frame.hides.filter(|_| layered).map(|hides| {
             let DepthImage { image, view, format, extent, before, after } = hides;
             let handle =
@@ -223,16 +216,16 @@ impl View {
         };
         if !plan.opaque.is_empty() {
             let set =
-                set(&[sampled(BIND_SUMS_COLORS, &images.surface), sampled(BIND_SUMS_DEPTH, &images.depth)])?;
+                set(&[sampled(BIND_SUMS_COLORS, images.surface), sampled(BIND_SUMS_DEPTH, images.depth)])?;
             draw(Part::Covering, set)?;
             if plan.opaque.settings.edges == Edges::Coverage && self.rendering.has_color() {
                 draw(Part::CoveringLess, set)?;
             }
         }
-        if let (true, Some(layers)) = (layered, &images.layers) {
+        if let Some(layers) = images.layers {
             draw(Part::Layers, set(&[sampled(BIND_SUMS_COLORS, layers)])?)?;
         }
-        let objects = match (&plan.objects, &images.objects) {
+        let objects = match (&plan.objects, images.objects) {
             (Some(drawn), Some(image)) => {
                 let motion = Motion::new([&camera, &camera_before], plan.range, settings.size_px);
                 let of = arena.list(frame.scenes.iter().map(|placed| motion.of(placed)));
@@ -266,9 +259,7 @@ impl View {
     /// Bytes of device memory that the view holds: images for its draws, and what its passes share.
     pub fn bytes(&self) -> u64 {
         let tables = [&self.objects, &self.tints[0], &self.tints[1]].map(Table::bytes);
-        self.images.as_ref().map_or(0, Images::bytes)
-            + tables.iter().sum::<u64>()
-            + self.slot.transient_bytes()
+        self.images.bytes() + tables.iter().sum::<u64>() + self.slot.transient_bytes()
     }
 }
 

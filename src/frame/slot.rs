@@ -21,6 +21,8 @@ pub struct FrameSlot {
     descriptors: Option<(DescriptorPool, PoolSizes)>,
     profiler: Option<(Profiler, Profile)>,
     occlusion: Option<Occlusion>,
+    /// The frame counts with them.
+    counts_layers: bool,
     /// What cuts the frame, where something does: written by the host, so that it takes no pass.
     planes: Option<Buffer>,
     kept: Kept,
@@ -50,6 +52,7 @@ impl FrameSlot {
             descriptors: None,
             profiler: None,
             occlusion: None,
+            counts_layers: false,
             planes: None,
             kept: Kept::default(),
             arena: Arena::new(),
@@ -86,17 +89,18 @@ impl FrameSlot {
     /// Whatever the driver answers.
     pub(crate) unsafe fn begin(&mut self, needs: Needs, profile: Option<Profile>) -> Result<()> {
         let Needs { room: wanted, occlusion_queries: queries } = needs;
-        let serves = |pool: &mut Occlusion| (1..=pool.count()).contains(&queries);
-        self.occlusion = match self.occlusion.take_if(serves) {
-            None if queries > 0 => Some(Occlusion::new(&self.device, "layers", queries)?),
-            pool => pool,
-        };
+        if self.occlusion.as_ref().map_or(0, |pool| pool.count()) < queries {
+            self.occlusion = Some(Occlusion::new(&self.device, "layers", queries)?);
+        }
+        self.counts_layers = queries > 0;
         match &self.descriptors {
             // SAFETY: this function's contract.
             Some((pool, room)) if room.holds(&wanted) => unsafe { pool.reset() }?,
-            _ => {
-                let pool = DescriptorPool::for_frames(&self.device, "frame sets", wanted)?;
-                self.descriptors = Some((pool, wanted));
+            before => {
+                // Room for what others need, too: frames take turns.
+                let room = before.as_ref().map_or(wanted, |(_, room)| room.max(&wanted));
+                let pool = DescriptorPool::for_frames(&self.device, "frame sets", room)?;
+                self.descriptors = Some((pool, room));
             }
         }
         if self.profiler.as_ref().map(|(_, kept)| *kept) != profile {
@@ -115,7 +119,6 @@ impl FrameSlot {
     /// Whatever the allocator answers.
     pub(crate) unsafe fn planes(&mut self, planes: &[ShaderPlane]) -> Result<Planes> {
         if planes.is_empty() {
-            self.planes = None;
             return Ok(Planes::default());
         }
         let desc =
@@ -142,12 +145,13 @@ impl FrameSlot {
         };
         let profiler = self.profiler.as_mut().map(|(profiler, _)| profiler);
         let execution = Execution { device: &self.device, kept: &mut self.kept, profiler };
-        Ok(SlotParts { descriptors, occlusion: self.occlusion.as_ref(), execution })
+        let occlusion = self.occlusion.as_ref().filter(|_| self.counts_layers);
+        Ok(SlotParts { descriptors, occlusion, execution })
     }
 }
 
 impl Execution<'_> {
-    /// Compiles a graph, where it is not that of the frame before, and records it. The plan that was recorded.
+    /// Compiles a graph, where none like it is kept, and records it. The plan that was recorded.
     ///
     /// # Safety
     /// As [`Kept::execute`].

@@ -73,7 +73,7 @@ impl Slot {
 
 /// Where a block ends to grow: what every device can allocate at once (Vulkan 1.3, `maxMemoryAllocationSize`). A tenant
 /// that is larger has a block of its own.
-const BLOCK_BYTES: u64 = 1 << 30;
+pub(super) const BLOCK_BYTES: u64 = 1 << 30;
 
 /// A transient that is to be placed.
 struct Tenant {

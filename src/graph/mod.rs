@@ -7,9 +7,10 @@
 //!    barriers, load and store operations.
 //! 3. A plan is recorded into a command buffer; again and again, if wanted. It never submits and never waits.
 //!
-//! **A plan's contract.** It is executed on one queue. Its transients' memory belongs to it alone and is the same in
-//! every execution, which may follow each other without a wait: the first access to memory waits on the last
-//! accesses of the execution before. At the start of each execution every import is in its declared initial state.
+//! **A plan's contract.** It is executed on one queue. Its transients' memory is the same in every execution, which may
+//! follow each other without a wait: the first access to memory waits on the last accesses of the execution before.
+//! It belongs to it alone, or to other plans, too, executions of which have finished. At the start of each execution
+//! every import is in its declared initial state.
 
 mod access;
 mod alias;
@@ -32,6 +33,7 @@ mod traffic;
 mod validate;
 
 pub use access::{Access, AccessInfo, PassKind};
+use alias::BLOCK_BYTES;
 pub use alias::{Block, MemoryClass, MemoryNeed, Slot};
 pub use barrier::{Barrier, Batch};
 pub use declare::{Graph, PassBuilder, Role, Start, Use};

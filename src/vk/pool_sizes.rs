@@ -47,6 +47,19 @@ impl PoolSizes {
         }
     }
 
+    /// Room for either.
+    pub fn max(&self, other: &Self) -> Self {
+        Self {
+            sets: self.sets.max(other.sets),
+            buffers: self.buffers.max(other.buffers),
+            uniform_buffers: self.uniform_buffers.max(other.uniform_buffers),
+            texel_buffers: self.texel_buffers.max(other.texel_buffers),
+            images: self.images.max(other.images),
+            filtered_images: self.filtered_images.max(other.filtered_images),
+            storage_images: self.storage_images.max(other.storage_images),
+        }
+    }
+
     /// Whether a pool of this room has room for that.
     pub fn holds(&self, wanted: &Self) -> bool {
         let mut kinds = wanted.kinds().into_iter().zip(self.kinds());

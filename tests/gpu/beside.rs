@@ -15,6 +15,7 @@ mod recording;
 mod several;
 mod tints;
 mod transparent;
+mod turning;
 mod updates;
 mod written;
 

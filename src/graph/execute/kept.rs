@@ -1,5 +1,5 @@
-//! What one execution leaves for the next: its plan, and its transients. A frame that declares what the one before did takes both;
-//! one in which only sizes of buffers differ, too, as long as these have room.
+//! What executions leave for those that follow: their plans, and their transients. A frame that declares what one before did takes both; one in
+//! which only sizes of buffers differ, too, as long as these have room. All share one memory, which grows to what the largest has needed.
 
 use std::{collections::HashSet, sync::Arc};
 
@@ -7,35 +7,48 @@ use ash::vk;
 
 use super::{
     super::{BufferDesc, Graph, Plan, ResourceDesc, ResourceId},
-    Body, Physical, Profiler, execute,
-    rooms::{Room, serve},
-    transients::{Transients, memory_need},
+    Body, Physical, Profiler,
+    blocks::{Blocks, FRAMES_OF_LATE},
+    execute,
+    rooms::{Room, renew, serve},
+    transients::{Transients, memory_need, transient_name},
 };
 use crate::{
     error::Result,
     vk::{Device, texel_bytes},
 };
 
-/// The plan and the transients of one execution, for the next.
+/// The plans and the transients of executions, for those that follow.
 #[derive(Default)]
-pub struct Kept(Option<Last>);
+pub struct Kept {
+    /// The one that was executed last is the first.
+    ready: Vec<Ready>,
+    blocks: Blocks,
+    executions: u64,
+}
 
-struct Last {
+/// What a frame of one shape is executed with.
+struct Ready {
     plan: Arc<Plan>,
     transients: Transients,
     /// One a resource.
     rooms: Vec<Room>,
+    /// Which execution was its last.
+    executed: u64,
 }
 
+/// Plans that are kept at most.
+const MOST_PLANS: usize = 64;
+
 impl Kept {
-    /// Compiles a graph, where that has changed, and records it as [`execute`] does, on transients that are made where those of the
-    /// execution before don't serve. The plan that was recorded.
+    /// Compiles a graph, where none like it is kept, and records it as [`execute`] does, on transients that are made where those that are kept
+    /// don't serve. The plan that was recorded.
     ///
     /// # Errors
     /// As [`Graph::compile`] and [`execute`], and whatever the allocator or the driver answers.
     ///
     /// # Safety
-    /// As [`execute`]; the execution before has finished or goes before this one to the same queue.
+    /// As [`execute`]; the execution before has finished, for another plan's transients lie in the same memory.
     pub unsafe fn execute(
         &mut self,
         device: &Device,
@@ -44,32 +57,56 @@ impl Kept {
         imports: &[(ResourceId, Physical)],
         profiler: Option<&mut Profiler>,
     ) -> Result<Arc<Plan>> {
-        let last = self.prepare(device, graph)?;
+        let ready = self.ready(device, graph)?;
         // SAFETY: this function's contract.
-        unsafe { execute(device, commands, (&last.plan, graph), &last.transients, imports, profiler) }?;
-        Ok(Arc::clone(&last.plan))
+        unsafe { execute(device, commands, (&ready.plan, graph), &ready.transients, imports, profiler) }?;
+        Ok(Arc::clone(&ready.plan))
     }
 
     /// Bytes of device memory in transients.
     pub fn bytes(&self) -> u64 {
-        self.0.as_ref().map_or(0, |last| last.transients.bytes())
+        self.blocks.bytes()
     }
 
-    fn prepare(&mut self, device: &Device, graph: &Graph<'_, Body<'_>>) -> Result<&Last> {
+    fn ready(&mut self, device: &Device, graph: &Graph<'_, Body<'_>>) -> Result<&Ready> {
+        self.executions += 1;
+        if self.executions.is_multiple_of(FRAMES_OF_LATE) {
+            self.give_back();
+        }
+        let sizes = graph.declared.resources.iter().map(|resource| sizes_of(&resource.desc, device));
+        let serves = |ready: &Ready| ready.plan.has_shape_of(graph) && serve(&ready.rooms, sizes.clone());
+        match self.ready.iter().position(serves) {
+            Some(place) => self.ready[..=place].rotate_right(1),
+            None => {
+                let made = self.make(device, graph);
+                // What is refused finds all memory idle next time.
+                let made = made.inspect_err(|_| *self = Self::default())?;
+                self.ready.insert(0, made);
+            }
+        }
+        let ready = &mut self.ready[0];
+        ready.executed = self.executions;
+        if !ready.plan.has_sizes_of(graph) {
+            Arc::make_mut(&mut ready.plan).resize(graph);
+        }
+        self.blocks.note(&ready.plan.blocks, ready.transients.memory());
+        Ok(ready)
+    }
+
+    /// What a graph is executed with for which nothing that is kept serves.
+    fn make(&mut self, device: &Device, graph: &Graph<'_, Body<'_>>) -> Result<Ready> {
         let resources = &graph.declared.resources;
         let sizes = resources.iter().map(|resource| sizes_of(&resource.desc, device));
-        let rooms = match self.0.take() {
-            Some(mut last) if last.plan.has_shape_of(graph) => {
-                if serve(&mut last.rooms, sizes) {
-                    if !last.plan.has_sizes_of(graph) {
-                        Arc::make_mut(&mut last.plan).resize(graph);
-                    }
-                    return Ok(self.0.insert(last));
+        let rooms = match self.ready.iter().position(|ready| ready.plan.has_shape_of(graph)) {
+            Some(place) => {
+                let (rooms, replaces) = renew(&self.ready[place].rooms, sizes);
+                if replaces {
+                    self.ready.remove(place);
                 }
-                last.rooms
+                rooms
             }
-            last => {
-                let varying = last.as_ref().map(Last::varying).unwrap_or_default();
+            None => {
+                let varying = self.ready.first().map(Ready::varying).unwrap_or_default();
                 let room = |(name, (size, most))| Room::new(size, varying.contains(name), most);
                 resources.iter().map(|resource| resource.name).zip(sizes).map(room).collect()
             }
@@ -84,12 +121,29 @@ impl Kept {
             memory_need(device, &desc, usage)
         };
         let plan = graph.compile(need)?;
-        let transients = Transients::new(device, &plan, |place| rooms[place].room_bytes)?;
-        Ok(self.0.insert(Last { plan: Arc::new(plan), transients, rooms }))
+        self.ready.truncate(MOST_PLANS - 1);
+        let memory = self.blocks.serve(device, transient_name, &plan.blocks)?;
+        self.drop_homeless();
+        let transients = Transients::placed(device, &plan, memory, |place| rooms[place].room_bytes)?;
+        Ok(Ready { plan: Arc::new(plan), transients, rooms, executed: self.executions })
+    }
+
+    /// Gives back what executions of late have not used.
+    fn give_back(&mut self) {
+        let since = self.executions.saturating_sub(FRAMES_OF_LATE);
+        self.ready.retain(|ready| ready.executed >= since);
+        self.blocks.give_back();
+        self.drop_homeless();
+    }
+
+    /// Drops plans of which the memory was replaced or given back: they would hold it.
+    fn drop_homeless(&mut self) {
+        let Self { ready, blocks, .. } = self;
+        ready.retain(|ready| blocks.have(ready.transients.memory()));
     }
 }
 
-impl Last {
+impl Ready {
     /// The names of the buffers whose sizes vary.
     fn varying(&self) -> HashSet<&str> {
         let varying = self.plan.resources.iter().zip(&self.rooms).filter(|(_, room)| room.varies);

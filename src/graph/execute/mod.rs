@@ -1,6 +1,7 @@
 //! Records a plan into a command buffer that is given: the only part of the graph that knows a device. It never
 //! submits and never waits.
 
+mod blocks;
 mod context;
 mod kept;
 mod profiler;
@@ -10,6 +11,7 @@ mod transients;
 
 use ash::vk;
 
+pub(crate) use self::blocks::{Blocks, FRAMES_OF_LATE};
 use self::{context::Binding, recorder::Recorder};
 pub use self::{
     context::{Body, PassContext},

@@ -25,29 +25,43 @@ impl Room {
         let room_bytes = size_bytes.saturating_add(reserve).min(most_bytes).max(size_bytes);
         Self { size_bytes, room_bytes, varies }
     }
+
+    /// Whether it varies where so much is needed next.
+    fn varies_at(&self, size_bytes: u64) -> bool {
+        self.varies || size_bytes != self.size_bytes
+    }
 }
 
-/// Looks whether buffers that are needed in other sizes now, each of at most so many bytes, have room. Where they have not, or
-/// have far too much, or one of them has just begun to vary, they get new room, and the answer is false.
-pub(super) fn serve(rooms: &mut [Room], sizes: impl Iterator<Item = (u64, u64)> + Clone) -> bool {
-    let (mut serve, mut held, mut wanted) = (true, 0_u64, 0_u64);
-    for (room, (size_bytes, most_bytes)) in rooms.iter_mut().zip(sizes.clone()) {
-        serve &= size_bytes <= room.room_bytes && (size_bytes == room.size_bytes || room.varies);
-        room.varies |= size_bytes != room.size_bytes;
-        room.size_bytes = size_bytes;
-        held = held.saturating_add(room.room_bytes);
-        wanted = wanted.saturating_add(Room::new(size_bytes, room.varies, most_bytes).room_bytes);
-    }
-    let too_large = held / MOST_TIMES_TOO_LARGE > wanted;
-    if serve && !too_large {
-        return true;
-    }
-    for (room, (size_bytes, most_bytes)) in rooms.iter_mut().zip(sizes) {
-        let new = Room::new(size_bytes, room.varies, most_bytes);
+/// Whether buffers that are needed in other sizes now, each of at most so many bytes, have room, and not far too much, and none of them has
+/// just begun to vary.
+pub(super) fn serve(rooms: &[Room], sizes: impl Iterator<Item = (u64, u64)> + Clone) -> bool {
+    let mut pairs = rooms.iter().zip(sizes.clone());
+    pairs.all(|(room, (size_bytes, _))| {
+        size_bytes <= room.room_bytes && (size_bytes == room.size_bytes || room.varies)
+    }) && !are_too_large(rooms, sizes)
+}
+
+/// The rooms of buffers where those that there are do not [`serve`]; and whether they serve all that those did. They don't where those have far
+/// too much.
+pub(super) fn renew(rooms: &[Room], sizes: impl Iterator<Item = (u64, u64)> + Clone) -> (Vec<Room>, bool) {
+    let too_large = are_too_large(rooms, sizes.clone());
+    let renewed = rooms.iter().zip(sizes).map(|(room, (size_bytes, most_bytes))| {
+        let new = Room::new(size_bytes, room.varies_at(size_bytes), most_bytes);
         let kept_bytes = if too_large { 0 } else { room.room_bytes };
-        *room = Room { room_bytes: new.room_bytes.max(kept_bytes), ..new };
+        Room { room_bytes: new.room_bytes.max(kept_bytes), ..new }
+    });
+    (renewed.collect(), !too_large)
+}
+
+/// Whether nearly all that there is would be idle.
+fn are_too_large(rooms: &[Room], sizes: impl Iterator<Item = (u64, u64)>) -> bool {
+    let (mut held, mut wanted) = (0_u64, 0_u64);
+    for (room, (size_bytes, most_bytes)) in rooms.iter().zip(sizes) {
+        held = held.saturating_add(room.room_bytes);
+        let new = Room::new(size_bytes, room.varies_at(size_bytes), most_bytes);
+        wanted = wanted.saturating_add(new.room_bytes);
     }
-    false
+    held / MOST_TIMES_TOO_LARGE > wanted
 }
 
 #[cfg(test)]
@@ -61,7 +75,9 @@ mod tests {
         let mut rooms: Vec<Room> = frames[0].iter().map(|&size| Room::new(size, false, MOST)).collect();
         let mut made = vec![0];
         for (frame, sizes) in frames.iter().enumerate().skip(1) {
-            if !serve(&mut rooms, sizes.iter().map(|&size| (size, MOST))) {
+            let sizes_and_most = sizes.iter().map(|&size| (size, MOST));
+            if !serve(&rooms, sizes_and_most.clone()) {
+                rooms = renew(&rooms, sizes_and_most).0;
                 made.push(frame);
             }
             assert!(

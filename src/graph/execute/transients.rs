@@ -1,10 +1,13 @@
 //! The physical transients of a plan: memory blocks, and the images and buffers placed in them.
 
+use std::sync::Arc;
+
 use ash::vk;
 
 use super::{
     super::{ImageDesc, MemoryClass, MemoryNeed, Plan, ResourceDesc, Usage},
     Physical,
+    blocks::Blocks,
 };
 use crate::{
     error::{Error, Result},
@@ -49,7 +52,8 @@ pub fn memory_need(device: &Device, desc: &ResourceDesc, usage: Usage) -> Result
 pub struct Transients {
     // Dropped, and so destroyed, before the memory that they are bound to.
     objects: Vec<Option<Object>>,
-    memory: Vec<Memory>,
+    /// One a block of the plan's; other plans' transients may lie there, too.
+    memory: Vec<Arc<Memory>>,
 }
 
 enum Object {
@@ -58,25 +62,30 @@ enum Object {
 }
 
 impl Transients {
-    /// Allocates and creates all transients of a plan. `room`: how many bytes the buffer has room for that is in this place among the
-    /// resources; as many as it needs, or more where the plan's memory was asked for so.
+    /// Allocates and creates all transients of a plan.
     ///
     /// # Errors
     /// Whatever the allocator or the driver answers.
-    pub fn new(device: &Device, plan: &Plan, room: impl Fn(usize) -> u64) -> Result<Self> {
-        let memory = plan.blocks.iter().map(|block| {
-            let requirements = vk::MemoryRequirements {
-                size: block.size_bytes,
-                alignment: block.alignment_bytes,
-                memory_type_bits: block.type_bits,
-            };
-            let (name, linear) = match block.class {
-                MemoryClass::Images => ("transient images", false),
-                MemoryClass::Buffers => ("transient buffers", true),
-            };
-            Memory::new(device, name, requirements, linear)
-        });
-        let memory = memory.collect::<Result<Vec<_>>>()?;
+    pub fn new(device: &Device, plan: &Plan) -> Result<Self> {
+        let memory = Blocks::default().serve(device, transient_name, &plan.blocks)?;
+        let size_bytes = |place: usize| match plan.resources[place].desc {
+            ResourceDesc::Buffer(desc) => desc.size_bytes,
+            ResourceDesc::Image(_) => 0,
+        };
+        Self::placed(device, plan, memory, size_bytes)
+    }
+
+    /// Creates all transients of a plan in memory for its blocks. `room`: how many bytes the buffer has room for that is in this place among the
+    /// resources; as many as it needs, or more where the plan's memory was asked for so.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub(super) fn placed(
+        device: &Device,
+        plan: &Plan,
+        memory: Vec<Arc<Memory>>,
+        room: impl Fn(usize) -> u64,
+    ) -> Result<Self> {
         let objects = plan.resources.iter().enumerate().map(|(place, resource)| {
             let Some(slot) = resource.slot else { return Ok(None) };
             let (block, offset) = (&memory[slot.block], slot.offset_bytes);
@@ -104,7 +113,12 @@ impl Transients {
 
     /// Bytes of device memory.
     pub fn bytes(&self) -> u64 {
-        self.memory.iter().map(Memory::size).sum()
+        self.memory.iter().map(|memory| memory.size()).sum()
+    }
+
+    /// The memory of the plan's blocks.
+    pub(super) fn memory(&self) -> &[Arc<Memory>] {
+        &self.memory
     }
 
     /// The objects by resource index.
@@ -118,6 +132,14 @@ impl Transients {
             None => None,
         };
         self.objects.iter().map(object)
+    }
+}
+
+/// What a block of memory is called.
+pub(super) fn transient_name(class: MemoryClass) -> &'static str {
+    match class {
+        MemoryClass::Images => "transient images",
+        MemoryClass::Buffers => "transient buffers",
     }
 }
 

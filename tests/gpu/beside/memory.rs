@@ -17,7 +17,7 @@ use surfel::{
 use super::{Engine, REVERSED, faults::frame};
 
 /// An engine's allocator: each piece a memory object of its own.
-struct OfEngine {
+pub(super) struct OfEngine {
     device: ash::Device,
     types: vk::PhysicalDeviceMemoryProperties,
     /// Requests that are still answered; the one after them is not.
@@ -27,6 +27,25 @@ struct OfEngine {
 }
 
 const ALL: u32 = u32::MAX;
+
+impl OfEngine {
+    /// One that refuses nothing.
+    pub fn new(engine: &Engine) -> Arc<Self> {
+        Arc::new(Self {
+            device: engine.device.clone(),
+            // SAFETY: the instance is alive.
+            types: unsafe { engine.instance.get_physical_device_memory_properties(engine.physical) },
+            left: AtomicU32::new(ALL),
+            asked: AtomicUsize::new(0),
+            live: AtomicUsize::new(0),
+        })
+    }
+
+    /// How many times it was asked.
+    pub fn asked(&self) -> usize {
+        self.asked.load(Relaxed)
+    }
+}
 
 // SAFETY: each piece is a memory object of a type that was asked for, of at least the size.
 unsafe impl HostMemory for OfEngine {
@@ -76,14 +95,7 @@ unsafe impl HostMemory for OfEngine {
 fn all_memory_is_the_engines_and_what_it_refuses_is_an_error_after_which_the_next_frame_works() {
     crate::common::arm();
     let engine = Engine::new(REVERSED);
-    let memory = Arc::new(OfEngine {
-        device: engine.device.clone(),
-        // SAFETY: the instance is alive.
-        types: unsafe { engine.instance.get_physical_device_memory_properties(engine.physical) },
-        left: AtomicU32::new(ALL),
-        asked: AtomicUsize::new(0),
-        live: AtomicUsize::new(0),
-    });
+    let memory = OfEngine::new(&engine);
     let host = Import { memory: Some(memory.clone()), ..engine.lent() };
     // SAFETY: all is the engine's own, which goes last.
     let device = unsafe { Device::import(&host) }.unwrap();
@@ -98,7 +110,7 @@ fn all_memory_is_the_engines_and_what_it_refuses_is_an_error_after_which_the_nex
     let kept = finish();
     memory.asked.store(0, Relaxed);
     drop(frame(&engine, &renderer).unwrap());
-    let asked = memory.asked.load(Relaxed);
+    let asked = memory.asked();
     assert_eq!(finish(), kept);
     assert!(asked > 4, "{asked}");
     for answered in 0..asked {

@@ -26,7 +26,7 @@ fn images_that_share_memory_keep_their_pixels_in_execution_after_execution() {
     };
     assert!(slot("first").overlaps(&slot("third")), "{}", plan);
     assert!(!slot("first").overlaps(&slot("second")) && !slot("second").overlaps(&slot("third")));
-    let transients = Transients::new(&watched.device, &plan, |_| 0).unwrap();
+    let transients = Transients::new(&watched.device, &plan).unwrap();
     let of_one = slot("first").size_bytes;
     assert!(transients.bytes() < 3 * of_one, "{} bytes for three of {of_one}", transients.bytes());
 
@@ -53,7 +53,7 @@ fn without_the_barrier_for_a_former_tenant_the_layer_speaks() {
     let watched = Watched::new();
     let (arena, (pattern, result)) = (Arena::new(), buffers(&watched));
     let (mut plan, graph, imports) = chain(&arena, &watched, &pattern, &result);
-    let transients = Transients::new(&watched.device, &plan, |_| 0).unwrap();
+    let transients = Transients::new(&watched.device, &plan).unwrap();
     let third = plan.resources.iter().position(|resource| resource.name == "third").unwrap();
     let mut dropped = 0;
     for pass in &mut plan.passes {
@@ -77,7 +77,7 @@ fn an_import_that_is_missing_or_of_the_wrong_kind_is_refused_before_anything_is_
     let watched = Watched::new();
     let (arena, (pattern, result)) = (Arena::new(), buffers(&watched));
     let (plan, _, imports) = chain(&arena, &watched, &pattern, &result);
-    let transients = Transients::new(&watched.device, &plan, |_| 0).unwrap();
+    let transients = Transients::new(&watched.device, &plan).unwrap();
     let wrong_kind = (imports[1].0, Physical::Image(vk::Image::null(), vk::ImageView::null()));
     let cases = [
         (vec![imports[0]], "resource 'result': has no Vulkan object: an import was not given"),
