@@ -94,7 +94,7 @@ enum SurfelResult
    */
   SURFEL_RESULT_UNKNOWN_STRUCT = -2,
   /**
-   * A struct is larger than this library knows it, and what it doesn't know is not zero: the header is newer than the library.
+   * A struct is larger than this library knows it, and what it doesn't know is not zero; or a member that is reserved is not zero: the header is newer than the library.
    */
   SURFEL_RESULT_NEWER_STRUCT = -3,
   /**
@@ -137,6 +137,10 @@ enum SurfelResult
    * Another error of the library.
    */
   SURFEL_RESULT_INTERNAL = -13,
+  /**
+   * A frame needs a pipeline that is not there yet, and was not to make one: `surfel_compile_ahead` does.
+   */
+  SURFEL_RESULT_NOT_READY = -14,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -334,7 +338,7 @@ typedef struct SurfelImport {
    */
   PFN_vkGetInstanceProcAddr getInstanceProcAddr;
   /**
-   * What the host really enabled, of `SURFEL_FEATURE_…`.
+   * What the host really enabled, of `SURFEL_FEATURE_…`; other bits are refused.
    */
   uint64_t features;
   /**
@@ -377,7 +381,7 @@ typedef struct SurfelSceneInfo {
    */
   VkBool32 updatable;
   /**
-   * 0.
+   * 0; else it is refused.
    */
   uint32_t reserved;
 } SurfelSceneInfo;
@@ -443,7 +447,7 @@ typedef struct SurfelSplats {
    */
   VkBool32 closed;
   /**
-   * 0.
+   * 0; else it is refused.
    */
   uint32_t reserved;
 } SurfelSplats;
@@ -683,7 +687,7 @@ typedef struct SurfelDepthImage {
    */
   uint32_t height;
   /**
-   * 0.
+   * 0; else it is refused.
    */
   uint32_t reserved;
 } SurfelDepthImage;
@@ -760,9 +764,10 @@ typedef struct SurfelFrame {
    */
   VkBool32 timed;
   /**
-   * 0.
+   * A frame that needs a pipeline which is not there yet is refused, `SURFEL_RESULT_NOT_READY`, in place of a wait for it; as after any
+   * refusal the view has then no frame to draw. `surfel_compile_ahead` makes them.
    */
-  uint32_t reserved;
+  VkBool32 refusesMissing;
   /**
    * A matrix for each scene, as in `worldFromScene`, of where it stood in the frame before, for motion. NULL: all stood where they stand.
    */
@@ -916,7 +921,7 @@ SurfelResult surfel_scene_set(struct SurfelScene *scene, const char *name, const
 
 /**
  * Adds a light, by words: `eye`, or `direction=x,y,z` in which it travels; and `color=r,g,b` (sRGB, 0 to 1) and `intensity=i` where they
- * are not 1; with commas between. A scene without lights has a white one at the eye.
+ * are not 1; with commas between; at most 16. A scene without lights has a white one at the eye.
  */
 SurfelResult surfel_scene_add_light(struct SurfelScene *scene, const char *light);
 
@@ -1070,6 +1075,17 @@ SurfelResult surfel_view_bytes(const struct SurfelView *view, uint64_t *bytes);
  * Destroys a view; NULL is nothing. Its memory is freed when the epoch that is recorded now is done.
  */
 void surfel_view_destroy(struct SurfelView *view);
+
+/**
+ * Makes the pipelines that a frame like this needs within such a rendering: `surfel_view_prepare` makes none for it then. Nothing is
+ * recorded. `made` gets how many were missing; it may be NULL. It may take long: while the host loads, or on a thread of its own, while
+ * others draw with what is there. A frame is like this with the same settings, showing what is of the same kind (opaque or transparent,
+ * disks or ellipses, closed or not, packed or not, polygons, lights), of about as many splats, and as near where they are large.
+ */
+SurfelResult surfel_compile_ahead(const struct SurfelRenderer *renderer,
+                                  const struct SurfelRendering *rendering,
+                                  const struct SurfelFrame *frame,
+                                  uint64_t *made);
 
 #ifdef __cplusplus
 }  // extern "C"

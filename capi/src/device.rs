@@ -9,7 +9,7 @@ use surfel::{
 
 use crate::{
     handle::{Out, Place, destroy, get, null},
-    requirements::{PFN_vkGetInstanceProcAddr, features_of, load_device, load_instance},
+    requirements::{PFN_vkGetInstanceProcAddr, check_features, features_of, load_device, load_instance},
     result::{SurfelResult, guard},
     structs::{Struct, SurfelStructureType, read},
 };
@@ -35,7 +35,7 @@ pub struct SurfelImport {
     pub device: vk::Device,
     /// All entry points come from it.
     pub get_instance_proc_addr: PFN_vkGetInstanceProcAddr,
-    /// What the host really enabled, of `SURFEL_FEATURE_…`.
+    /// What the host really enabled, of `SURFEL_FEATURE_…`; other bits are refused.
     pub features: u64,
     /// The family of the queue to which the host submits what we record; graphics and compute.
     pub queue_family: u32,
@@ -59,6 +59,7 @@ pub unsafe extern "C" fn surfel_device_import(
     guard("surfel_device_import", || {
         // SAFETY: the contract of the header, here and below.
         let (out, host) = unsafe { (Out::new(device, "device")?, read(host, "host")?) };
+        check_features(host.features)?;
         if host.physical_device == vk::PhysicalDevice::null() {
             return Err(null("physicalDevice"));
         }

@@ -5,9 +5,8 @@ use std::ffi::c_void;
 use surfel::{
     Settings,
     ash::vk,
-    embed::{HostCamera, Placed, Placement, ViewFrame},
+    embed::{HostCamera, MissingPipelines, Placed, Placement, Profile, ViewFrame},
     glam::DMat4,
-    graph::execute::Profile,
 };
 
 use crate::{
@@ -59,8 +58,9 @@ pub struct SurfelFrame {
     pub y: i32,
     /// Each pass is timed, for `surfel_view_times`.
     pub timed: vk::Bool32,
-    /// 0.
-    pub reserved: u32,
+    /// A frame that needs a pipeline which is not there yet is refused, `SURFEL_RESULT_NOT_READY`, in place of a wait for it; as after any
+    /// refusal the view has then no frame to draw. `surfel_compile_ahead` makes them.
+    pub refuses_missing: vk::Bool32,
     /// A matrix for each scene, as in `worldFromScene`, of where it stood in the frame before, for motion. NULL: all stood where they stand.
     pub world_from_scene_before: *const f64,
     /// A number for each scene, for whoever wants to know what is seen in a pixel. NULL: 0.
@@ -180,7 +180,10 @@ unsafe fn with_scenes<'a>(
         settings: &settings,
         corner_px: [given.x, given.y],
         hides,
-        missing: surfel::embed::MissingPipelines::Make,
+        missing: match given.refuses_missing != vk::FALSE {
+            true => MissingPipelines::Refuse,
+            false => MissingPipelines::Make,
+        },
         profile: (given.timed != vk::FALSE).then_some(Profile::Times),
     })
 }

@@ -45,13 +45,17 @@ pub struct SurfelDepthImage {
     pub width: u32,
     /// Its height in pixels.
     pub height: u32,
-    /// 0.
+    /// 0; else it is refused.
     pub reserved: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
 unsafe impl Struct for SurfelDepthImage {
     const TYPE: SurfelStructureType = SurfelStructureType::DepthImage;
+
+    fn reserved(&self) -> u32 {
+        self.reserved
+    }
 }
 
 /// An image of the host's that a view is drawn onto: with the format and samples that its rendering has, one layer, one mip level; usage

@@ -25,6 +25,8 @@ mod settings;
 mod frame;
 mod view;
 
+mod ahead;
+
 /// The version of this header: as `VK_MAKE_API_VERSION(0, major, minor, patch)`.
 pub const SURFEL_VERSION: u32 = 1 << 12;
 

@@ -108,7 +108,19 @@ pub fn flags_of(features: &Features) -> u64 {
     all.iter().map(|(has, flag)| if *has { *flag } else { 0 }).sum()
 }
 
-/// Bits that are unknown are of features that we make no use of.
+/// Refuses bits that are of no feature that this library knows: what they were to say would be lost.
+pub fn check_features(flags: u64) -> Result<()> {
+    let known = flags_of(&features_of(u64::MAX));
+    match flags & !known {
+        0 => Ok(()),
+        unknown => {
+            let text = format!("features: {unknown:#x} is of none: this library knows {known:#x}");
+            Err(Failure::invalid(text))
+        }
+    }
+}
+
+/// Bits that are unknown say nothing: see [`check_features`].
 pub fn features_of(flags: u64) -> Features {
     let has = |flag| flags & flag != 0;
     Features {
@@ -218,6 +230,7 @@ pub unsafe extern "C" fn surfel_enable_features(
         let (core, vulkan12, vulkan13) = unsafe {
             (get_mut(core, "core")?, get_mut(vulkan12, "vulkan12")?, get_mut(vulkan13, "vulkan13")?)
         };
+        check_features(features)?;
         let ours = features_of(features);
         let (core_of, of12, of13) = (ours.core(), ours.vulkan12(), ours.vulkan13());
         core.independent_blend |= core_of.independent_blend;

@@ -19,7 +19,7 @@ pub enum SurfelResult {
     InvalidArgument = -1,
     /// A struct's `sType` is not the one expected there, or its `pNext` leads to a struct that does not extend it.
     UnknownStruct = -2,
-    /// A struct is larger than this library knows it, and what it doesn't know is not zero: the header is newer than the library.
+    /// A struct is larger than this library knows it, and what it doesn't know is not zero; or a member that is reserved is not zero: the header is newer than the library.
     NewerStruct = -3,
     /// A mistake in the library. The objects of the call may only be destroyed from now on.
     Panic = -4,
@@ -42,6 +42,8 @@ pub enum SurfelResult {
     Vulkan = -12,
     /// Another error of the library.
     Internal = -13,
+    /// A frame needs a pipeline that is not there yet, and was not to make one: `surfel_compile_ahead` does.
+    NotReady = -14,
 }
 
 /// Why a call is refused.
@@ -65,6 +67,7 @@ impl From<Error> for Failure {
             ErrorKind::Input { .. } => SurfelResult::Input,
             ErrorKind::Option { .. } => SurfelResult::Option,
             ErrorKind::File { .. } => SurfelResult::File,
+            ErrorKind::NotReady { .. } => SurfelResult::NotReady,
             ErrorKind::NoDevice { .. } => SurfelResult::NoDevice,
             ErrorKind::Memory { .. } => SurfelResult::OutOfMemory,
             ErrorKind::Vulkan { result, .. } => match *result {

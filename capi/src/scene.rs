@@ -5,7 +5,7 @@ use std::ffi::{c_char, c_void};
 use surfel::{
     Error, Scene,
     ash::vk,
-    scene::{Light, Object},
+    scene::{Light, MOST_LIGHTS, Object},
 };
 
 use crate::{
@@ -37,13 +37,17 @@ pub struct SurfelSceneInfo {
     /// `surfel_update` may change its splats on the device, for which the host keeps what the device has of each; not with `levels`, nor with
     /// `splat-format` `packed`.
     pub updatable: vk::Bool32,
-    /// 0.
+    /// 0; else it is refused.
     pub reserved: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
 unsafe impl Struct for SurfelSceneInfo {
     const TYPE: SurfelStructureType = SurfelStructureType::SceneInfo;
+
+    fn reserved(&self) -> u32 {
+        self.reserved
+    }
 }
 
 /// Makes a scene of nothing. `info` may be NULL.
@@ -82,7 +86,7 @@ pub unsafe extern "C" fn surfel_scene_set(
 }
 
 /// Adds a light, by words: `eye`, or `direction=x,y,z` in which it travels; and `color=r,g,b` (sRGB, 0 to 1) and `intensity=i` where they
-/// are not 1; with commas between. A scene without lights has a white one at the eye.
+/// are not 1; with commas between; at most 16. A scene without lights has a white one at the eye.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_scene_add_light(
     scene: *mut SurfelScene,
@@ -92,6 +96,10 @@ pub unsafe extern "C" fn surfel_scene_add_light(
         // SAFETY: the contract of the header.
         let (scene, light) = unsafe { (get_mut(scene, "scene")?, text(light, "light")?) };
         let light = Light::parse(light).map_err(|problem| Error::option("light", problem))?;
+        if scene.0.lights.len() >= MOST_LIGHTS {
+            let problem = format!("the scene has {MOST_LIGHTS} already, which is the most");
+            return Err(Error::option("light", problem).into());
+        }
         scene.0.lights.push(light);
         Ok(())
     })

@@ -46,13 +46,17 @@ pub struct SurfelSplats {
     pub epsilon: f64,
     /// The splats sample a closed surface, and their normals point outward: those that face away can't be seen.
     pub closed: vk::Bool32,
-    /// 0.
+    /// 0; else it is refused.
     pub reserved: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
 unsafe impl Struct for SurfelSplats {
     const TYPE: SurfelStructureType = SurfelStructureType::Splats;
+
+    fn reserved(&self) -> u32 {
+        self.reserved
+    }
 }
 
 /// # Safety

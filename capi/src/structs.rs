@@ -54,6 +54,11 @@ struct Head {
 /// It begins as [`Head`] does, is `repr(C)`, has no padding, and may be all zeros.
 pub unsafe trait Struct: Copy {
     const TYPE: SurfelStructureType;
+
+    /// What must be 0, so that a later version can give it a meaning.
+    fn reserved(&self) -> u32 {
+        0
+    }
 }
 
 /// How many bytes of a struct are both given and known.
@@ -95,11 +100,18 @@ unsafe fn check<T: Struct>(given: *const T, name: &str) -> Result<usize> {
 /// As [`check`].
 pub unsafe fn read<T: Struct>(given: *const T, name: &str) -> Result<T> {
     // SAFETY: this function's contract, and the trait's.
-    unsafe {
+    let whole = unsafe {
         let bytes = check(given, name)?;
         let mut whole = MaybeUninit::<T>::zeroed();
         given.cast::<u8>().copy_to_nonoverlapping(whole.as_mut_ptr().cast(), bytes);
-        Ok(whole.assume_init())
+        whole.assume_init()
+    };
+    match whole.reserved() {
+        0 => Ok(whole),
+        other => {
+            let text = format!("{name}: reserved is {other}: this library knows 0");
+            Err(Failure { code: SurfelResult::NewerStruct, text })
+        }
     }
 }
 

@@ -77,7 +77,7 @@ const MOST_ATTACHMENTS: u32 = 64;
 
 /// # Safety
 /// Pointers are NULL or lead to as much as the struct says.
-unsafe fn rendering_of(given: &SurfelRendering) -> Result<Rendering> {
+pub unsafe fn rendering_of(given: &SurfelRendering) -> Result<Rendering> {
     let count = given.color_format_count;
     if count > MOST_ATTACHMENTS {
         let text = format!("colorFormatCount is {count}: expected at most {MOST_ATTACHMENTS}");

@@ -1,6 +1,6 @@
 //! Pipelines ahead of the frames that need them.
 
-use super::{Rendering, View, ViewFrame};
+use super::{Rendering, View, ViewFrame, fields::as_fields};
 use crate::{arena::Arena, error::Result, passes::MissingPipelines, renderer::Renderer};
 
 impl Renderer {
@@ -17,7 +17,7 @@ impl Renderer {
         let frame = ViewFrame { missing: MissingPipelines::Make, profile: None, ..*frame };
         let mut view = View::new(self, rendering)?;
         // SAFETY: the view is new, nothing is recorded, and so the depth image not looked at.
-        unsafe { view.record_passes(&Arena::new(), self, None, &frame) }?;
+        unsafe { view.record_passes(&Arena::new(), self, None, &frame) }.map_err(as_fields)?;
         Ok(self.pipelines_made() - before)
     }
 

@@ -5,6 +5,7 @@ use ash::vk;
 use super::{View, frame::ViewFrame};
 use crate::{
     error::{Error, Result},
+    renderer::Renderer,
     scene::{Camera, DepthOfHost, HostCamera, Settings, Shading},
 };
 
@@ -41,13 +42,23 @@ impl View {
         }
     }
 
+    /// Refuses a renderer whose pipelines are not the view's, nor, it may be, of its device.
+    pub(super) fn check_renderer(&self, renderer: &Renderer) -> Result<()> {
+        match renderer.number == self.renderer {
+            true => Ok(()),
+            false => Err(Error::option("renderer", "is not the one that the view was made with")),
+        }
+    }
+
     pub(super) fn check_frame(&self, frame: &ViewFrame<'_>, layered: bool) -> Result<()> {
-        if frame.corner_px.iter().any(|at| *at < 0) {
-            let [x, y] = frame.corner_px;
-            return Err(Error::option(
-                "corner_px",
-                format!("{x},{y}: expected a corner within the host's image"),
-            ));
+        let side_px = i64::from(self.device.facts().limits.max_image_side);
+        let lies_within = |(at, size): (&i32, &u32)| *at >= 0 && i64::from(*at) + i64::from(*size) <= side_px;
+        if !frame.corner_px.iter().zip(&frame.settings.size_px).all(lies_within) {
+            let ([x, y], [width, height]) = (frame.corner_px, frame.settings.size_px);
+            let problem = format!(
+                "{x},{y}: expected {width}x{height} pixels from there on within the host's image, which has at most {side_px} a side"
+            );
+            return Err(Error::option("corner_px", problem));
         }
         if !layered {
             return Ok(());

@@ -14,12 +14,13 @@ impl View {
     /// pipeline, all descriptor sets and push constants.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] if no frame is prepared.
+    /// [`crate::ErrorKind::Option`] for another renderer than the view's, and if no frame is prepared. Nothing is recorded then.
     ///
     /// # Safety
     /// `commands` are those of [`View::prepare`], or others that are submitted after them to the same queue; they are inside of a rendering as the
     /// view was made for, which covers the view's area. The view stays alive, and is not prepared again, until they have run.
     pub unsafe fn draw(&self, renderer: &Renderer, commands: vk::CommandBuffer) -> Result<()> {
+        self.check_renderer(renderer)?;
         let Some(Prepared { area, depth, draws, objects }) = &self.prepared else {
             return Err(Error::option("draw", "no frame is prepared: expected prepare before"));
         };

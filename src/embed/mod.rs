@@ -13,6 +13,7 @@ mod ahead;
 mod checks;
 mod depth;
 mod draw;
+mod fields;
 mod frame;
 mod images;
 mod motion;
@@ -26,7 +27,7 @@ mod view;
 pub use crate::{
     graph::{
         ImageState,
-        execute::{FrameProfile, PassCounts, PassProfile},
+        execute::{FrameProfile, PassCounts, PassProfile, Profile},
     },
     passes::MissingPipelines,
     prepare::{DynamicBuffers, DynamicSplats, NO_TINT, Placed, PreparedScene, dynamic},

@@ -7,16 +7,16 @@ use crate::{
     graph::aspect_of,
     passes::pipeline::key::{GraphicsKey, Layout},
     shaders::{self, Shader, config::*},
-    vk::{Attachments, Blend, Device},
+    vk::{Attachments, Blend, DEPTH_FORMATS, Device, can, check_color},
 };
 
 /// What the host's rendering is, within which a view is drawn: as in `VkPipelineRenderingCreateInfo`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rendering {
-    /// The formats of its color attachments. The first is drawn to, then come those of [`Self::ids`] and [`Self::motion`]; the others are left as they are. For more than
+    /// The formats of its color attachments. The first, one of [`crate::embed::Requirements::color_formats`], is drawn to, then come those of [`Self::ids`] and [`Self::motion`]; the others are left as they are. For more than
     /// one the device needs `independentBlend`. None: depth alone is drawn, as for a map of shadows, of what is opaque.
     pub color_formats: Vec<vk::Format>,
-    /// The format of its depth attachment; `UNDEFINED`: there is none, and all of the view is drawn.
+    /// The format of its depth attachment, one of [`crate::embed::Requirements::depth_formats`]; `UNDEFINED`: there is none, and all of the view is drawn.
     pub depth_format: vk::Format,
     /// The format of its stencil attachment, which is left as it is.
     pub stencil_format: vk::Format,
@@ -96,13 +96,9 @@ impl Rendering {
     pub(super) fn check(&self, device: &Device) -> Result<()> {
         let refused = |what: &str, problem: String| Err(Error::option(what, problem));
         let (instance, physical) = (device.instance().raw(), device.physical());
-        // SAFETY: the device's own, which are alive, here and below.
+        // SAFETY: the device's own, which are alive.
         let limits = unsafe { instance.get_physical_device_properties(physical) }.limits;
-        let can = |format: vk::Format, use_: vk::FormatFeatureFlags| {
-            // SAFETY: as above.
-            let properties = unsafe { instance.get_physical_device_format_properties(physical, format) };
-            properties.optimal_tiling_features.contains(use_)
-        };
+        let can = |format: vk::Format, use_: vk::FormatFeatureFlags| can(device, format, use_);
         let first = self.color_formats.first().copied().unwrap_or_default();
         if !self.has_color() && !self.has_depth() {
             return refused(
@@ -110,11 +106,8 @@ impl Rendering {
                 "there is neither color nor depth: expected one of them".to_owned(),
             );
         }
-        if self.has_color() && !can(first, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND) {
-            return refused(
-                "color_formats",
-                format!("the first is {first:?}: expected one that can be blended in"),
-            );
+        if self.has_color() {
+            check_color(device, "color_formats", first)?;
         }
         let others = self.color_formats.get(1 + self.written_beside()..).unwrap_or_default();
         self.check_written_beside(&can)?;
@@ -131,13 +124,13 @@ impl Rendering {
             );
             return refused("color_formats", problem);
         }
-        let (depth, stencil) = (aspect_of(self.depth_format), aspect_of(self.stencil_format));
+        let stencil = aspect_of(self.stencil_format);
         let attached = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
-        let is_depth = depth.contains(vk::ImageAspectFlags::DEPTH) && can(self.depth_format, attached);
+        let is_depth = DEPTH_FORMATS.contains(&self.depth_format) && can(self.depth_format, attached);
         if self.has_depth() && !is_depth {
             return refused(
                 "depth_format",
-                format!("{:?}: expected one of depth attachments", self.depth_format),
+                format!("{:?}: expected one of {DEPTH_FORMATS:?} that the device has", self.depth_format),
             );
         }
         let has_stencil = self.stencil_format != vk::Format::UNDEFINED;

@@ -4,6 +4,7 @@ use ash::vk;
 
 use super::{
     depth::host_depth,
+    fields::as_fields,
     frame::{DepthImage, ViewFrame},
     images::{AFTER, BEFORE, Images},
     motion::Motion,
@@ -31,6 +32,8 @@ use crate::{
 pub struct View {
     pub(super) device: Device,
     pub(super) rendering: Rendering,
+    /// Of the renderer that it was made with, whose pipelines it draws with.
+    pub(super) renderer: u64,
     slot: FrameSlot,
     images: Images,
     /// Objects as the host numbers them; tints of what is opaque, and of what is transparent.
@@ -78,6 +81,7 @@ impl View {
         Ok(Self {
             device,
             rendering: rendering.clone(),
+            renderer: renderer.number,
             slot,
             images: Images::default(),
             objects: Table::default(),
@@ -89,13 +93,12 @@ impl View {
     /// Records the passes of a frame: all but its draws.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] for a camera that is none, several samples of a pixel (a host takes them itself, by jittered cameras), something
+    /// [`crate::ErrorKind::Option`] for another renderer than the view's, a camera that is none, several samples of a pixel (a host takes them itself, by jittered cameras), something
     /// transparent beside a host's depth that is not given; as [`Renderer::record`].
     ///
     /// # Safety
-    /// `commands` must be recording, outside of rendering, without an active query, and be submitted to the device's queue; `renderer` is the one
-    /// the view was made with. Renderer, scenes, view and the depth image must stay alive until it has run; the frame prepared before in this view
-    /// must have finished. The depth image is what it says, and in the state it says.
+    /// `commands` must be recording, outside of rendering, without an active query, and be submitted to the device's queue. Renderer, scenes, view and the depth image must stay alive until it has run; the frame prepared before in this view
+    /// must have finished, or its commands were reset without being submitted: a view is not prepared twice in one recording, nor in two that are submitted together. The depth image is what it says, and in the state it says.
     pub unsafe fn prepare(
         &mut self,
         renderer: &Renderer,
@@ -106,7 +109,7 @@ impl View {
         // SAFETY: this function's contract.
         let recorded = unsafe { self.record_passes(&arena, renderer, Some(commands), frame) };
         self.slot.give_back(arena);
-        recorded
+        recorded.map_err(as_fields)
     }
 
     /// The same, in a frame's memory; without commands, all up to where it would be recorded: pipelines are there then.
@@ -121,13 +124,15 @@ impl View {
         frame: &ViewFrame<'_>,
     ) -> Result<()> {
         self.prepared = None;
+        self.check_renderer(renderer)?;
         let settings = &self.settings_of(frame);
         if settings.samples.0 > 1 {
             return Err(Error::option(
-                "--samples",
+                "samples",
                 "expected 1: a host takes more itself, by jittered cameras",
             ));
         }
+        renderer.check_settings(settings)?;
         let (camera, depth) = frame.camera.camera(settings.size_px)?;
         self.check_order(depth)?;
         let mut plan = renderer.frame_plan(arena, frame.scenes, &camera, settings)?;

@@ -44,6 +44,8 @@ pub(super) fn cut(
     progress: &dyn Fn(u64, u64),
 ) -> Result<PreparedScene> {
     scene.check_lengths()?;
+    scene.check_lights()?;
+    scene.check_epsilons()?;
     updatable::check(scene)?;
     let of_splats = scene.objects.iter().map(|object| object.name.as_str());
     let leveled = scene.leveled.iter().map(|object| object.name.as_str());

@@ -42,6 +42,9 @@ pub struct DynamicSplats {
     pub transparent: bool,
 }
 
+/// The farthest from the origin that bounds may be, and the largest radius: squares of it stay within f32, in which a host writes them.
+const FARTHEST: f64 = 1e18;
+
 /// The mean of the default kernel, exp(−2 r²), over a disk: (1 − e⁻²) / 2. Disks sum to that times their number.
 const MEAN_WEIGHT: f64 = 0.432_332_358_381_693_65;
 
@@ -64,16 +67,17 @@ impl DynamicSplats {
         if count > room {
             return refused(format!("{count} of them: there is room for {room}"));
         }
-        let finite = origin.is_finite() && lo.is_finite() && hi.is_finite() && lo.cmple(hi).all();
-        if !(finite
+        let holds = |corner: DVec3| corner.abs().max_element() <= FARTHEST;
+        let ordered = origin.is_finite() && lo.cmple(hi).all() && holds(lo) && holds(hi);
+        if !(ordered
             && largest_radius > 0.0
-            && largest_radius.is_finite()
+            && largest_radius <= FARTHEST
             && overlap >= 1.0
             && overlap.is_finite())
         {
-            return refused(
-                "expected finite bounds, the smaller coordinates first, a radius above 0 and an overlap of 1 or more".to_owned(),
-            );
+            return refused(format!(
+                "expected bounds within {FARTHEST:e}, the smaller coordinates first, a radius above 0 and as large at most, and an overlap of 1 or more"
+            ));
         }
         Ok(())
     }

@@ -129,7 +129,7 @@ impl PreparedScene {
 /// first frame and the batch lives until then. `progress` is called with splats done and splats in all.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Option`] for an object of which a list is shorter or longer than that of its positions, and for a scene that is to be updatable and can't be; whatever the allocator, the driver or `submit` answers.
+/// [`crate::ErrorKind::Option`] for an object of which a list is shorter or longer than that of its positions, for lights or an ε that are none, and for a scene that is to be updatable and can't be; whatever the allocator, the driver or `submit` answers.
 pub fn prepare(
     device: &Device,
     limits: &Limits,
@@ -160,7 +160,7 @@ mod tests {
     use glam::{DVec3, Vec3};
 
     use super::*;
-    use crate::scene::{Colors, Mesh, MeshObject, Object, Shapes, Splats};
+    use crate::scene::{Colors, Epsilon, Mesh, MeshObject, Object, Shapes, Splats};
 
     #[test]
     fn lists_that_are_not_as_long_as_the_positions_are_refused_by_name() {
@@ -194,6 +194,27 @@ mod tests {
         let meshes = vec![MeshObject { name: "part".to_owned(), mesh, closed: false }];
         let words = "mesh 'part': 10 positions, and 2 normals; expected as many";
         assert_eq!(said(&Scene { meshes, ..Scene::default() }), Err(words.to_owned()));
+    }
+
+    /// What a file may not say, a host may not either: a light or an ε that is none would be pixels that are no numbers.
+    #[test]
+    fn lights_and_epsilons_that_are_none_are_refused_by_name() {
+        let said =
+            |scene: &Scene| prepare_without_device(&Limits::plain(), scene).err().map(|e| e.to_string());
+        let light = |red| Light { color: [red, 1.0, 1.0], ..Light::DEFAULT };
+        let lit = |lights| Scene { lights, ..Scene::default() };
+        assert_eq!(said(&lit(vec![light(2.0); 16])), None);
+        for red in [f32::NAN, f32::INFINITY, -1.0] {
+            let refused = said(&lit(vec![Light::DEFAULT, light(red)])).unwrap();
+            assert!(refused.starts_with("light: color"), "{refused}");
+        }
+        assert_eq!(said(&lit(vec![light(1.0); 17])).unwrap(), "lights: 17: expected at most 16");
+        let with = |epsilon| Scene { epsilons: vec![None, Some(epsilon)], ..Scene::default() };
+        assert_eq!(said(&with(Epsilon::Length(0.0))), None);
+        for epsilon in [Epsilon::Length(f64::NAN), Epsilon::Radii(-1.0), Epsilon::Length(f64::INFINITY)] {
+            let refused = said(&with(epsilon)).unwrap();
+            assert!(refused.starts_with("epsilon of object 1: "), "{refused}");
+        }
     }
 
     /// A host may draw one scene from several threads. Fails to compile where that is not so.

@@ -37,6 +37,9 @@ pub(super) fn check(scene: &Scene) -> Result<()> {
 /// Splats that are between two changed ones and are copied with them, rather than begin a copy of its own.
 const MOST_BETWEEN: u32 = 16;
 
+/// How far from its chunk's origin a changed splat may reach, in the chunk's own unit, which is about as large as what was uploaded: an upload gives what is farther a chunk of its own.
+const FARTHEST: f64 = 1e18;
+
 /// What the host keeps of a chunk whose splats may change.
 pub(super) struct Shadow {
     /// As on the device.
@@ -152,6 +155,12 @@ impl Chunk {
                     counts.to_string()
                 }
                 None if splats.clips.get(own(*number)) != Clip::None => "a clip curve cuts it".to_owned(),
+                None if self.rebase.scale * splats.major_radius(own(*number)) > FARTHEST => {
+                    "its radius is so large that no camera sees the rest of its object".to_owned()
+                }
+                None if self.rebase.point(splats.positions[own(*number)]).abs().max_element() > FARTHEST => {
+                    "it lies so far off that no camera sees the rest of its object".to_owned()
+                }
                 None if !self.transparent && splats.color(own(*number))[3] < 1.0 => {
                     "it is transparent, and its object is not".to_owned()
                 }
@@ -251,6 +260,7 @@ impl PreparedScene {
         if device.is_some_and(|device| !self.is_on(device)) {
             return refused("the scene was prepared for another device".to_owned());
         }
+        splats.check_lengths().map_err(|problem| Error::option("update", problem))?;
         if object >= self.objects.len() {
             return refused(format!("object {object}: the scene has {}", self.objects.len()));
         }

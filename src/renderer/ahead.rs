@@ -13,6 +13,7 @@ use crate::{
     passes::MissingPipelines,
     prepare::PreparedScene,
     scene::{Camera, Settings},
+    vk::check_color,
 };
 
 impl Renderer {
@@ -20,7 +21,7 @@ impl Renderer {
     /// Nothing is recorded. A frame that is read back, or the sum of several samples, needs more.
     ///
     /// # Errors
-    /// As [`Self::record`].
+    /// [`ErrorKind::Option`] for a format that is not one of [`crate::vk::Requirements::color_formats`]; as [`Self::record`].
     pub fn make_pipelines(
         &self,
         scene: &PreparedScene,
@@ -29,6 +30,7 @@ impl Renderer {
         format: vk::Format,
         time: Duration,
     ) -> Result<bool> {
+        check_color(&self.device, "format", format)?;
         let begun = Instant::now();
         let [width, height] = settings.size_px;
         let target = Target {

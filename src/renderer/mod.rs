@@ -10,7 +10,10 @@ mod in_parts;
 mod paged;
 mod pick;
 
-use std::sync::Arc;
+use std::sync::{
+    Arc,
+    atomic::{AtomicU64, Ordering},
+};
 
 use ash::vk;
 
@@ -38,6 +41,8 @@ use crate::{
 /// Draws splats on a device.
 pub struct Renderer {
     device: Device,
+    /// No other renderer of this process has it.
+    pub(crate) number: u64,
     pub(crate) limits: Limits,
     pub(crate) shaders: Shaders,
 }
@@ -75,8 +80,9 @@ impl Renderer {
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, cache_folder: Option<&std::path::Path>) -> Result<Self> {
-        let limits = device.facts().limits;
-        Ok(Self { device: device.clone(), limits, shaders: Shaders::new(device, cache_folder)? })
+        static MADE: AtomicU64 = AtomicU64::new(0);
+        let (limits, number) = (device.facts().limits, MADE.fetch_add(1, Ordering::Relaxed));
+        Ok(Self { device: device.clone(), number, limits, shaders: Shaders::new(device, cache_folder)? })
     }
 
     /// Pipelines and their layouts.

@@ -3,7 +3,8 @@
 use super::Opacity;
 use crate::math::srgb::linear_from_srgb;
 
-/// Linear albedo (red, green, blue) and straight alpha, each 0–1.
+/// Linear albedo (red, green, blue) and straight alpha, each 0–1. What is finite and outside of that is taken for the nearer end, and is no defect: a color has no more light than
+/// white, and of an alpha of 0 or below nothing is seen. More light is that of [`super::Light`]. What is not finite is [`super::Defect::Color`].
 #[derive(Clone, Debug)]
 pub enum Colors {
     /// One color for all.

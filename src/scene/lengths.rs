@@ -1,9 +1,30 @@
-//! Lists of a scene that belong together: each has as many as there are positions.
+//! What no scene has, whoever made it: lists that belong together have as many as there are positions; lights shine, and an ε is a length.
 
-use super::{Colors, Scene, Shapes, Splats};
+use super::{Colors, Light, MOST_LIGHTS, OptionValue, Scene, Shapes, Splats};
 use crate::error::{Error, Result};
 
 impl Scene {
+    /// Refuses lights that are none, and more than a frame has.
+    pub(crate) fn check_lights(&self) -> Result<()> {
+        self.lights.iter().try_for_each(Light::validate)?;
+        match self.lights.len() <= MOST_LIGHTS {
+            true => Ok(()),
+            false => {
+                let problem = format!("{}: expected at most {MOST_LIGHTS}", self.lights.len());
+                Err(Error::option("lights", problem))
+            }
+        }
+    }
+
+    /// Refuses an object's own ε that is none.
+    pub(crate) fn check_epsilons(&self) -> Result<()> {
+        for (number, epsilon) in self.epsilons.iter().enumerate() {
+            let checked = epsilon.as_ref().map_or(Ok(()), OptionValue::check);
+            checked.map_err(|problem| Error::option(format!("epsilon of object {number}"), problem))?;
+        }
+        Ok(())
+    }
+
     /// Refuses an object or a mesh, by its name, of which a list is shorter or longer than that of its positions.
     pub(crate) fn check_lengths(&self) -> Result<()> {
         let of_splats = self.objects.iter().map(|object| ("object", &object.name, lists(&object.splats)));
@@ -15,14 +36,25 @@ impl Scene {
             ("mesh", &object.name, (object.mesh.positions.len(), lists))
         });
         for (kind, name, (positions, lists)) in of_splats.chain(of_levels).chain(of_meshes) {
-            for (list, count) in lists {
-                if let Some(count) = count.filter(|count| *count != positions) {
-                    let problem = format!("{positions} positions, and {count} {list}; expected as many");
-                    return Err(Error::option(format!("{kind} '{name}'"), problem));
-                }
-            }
+            check((positions, lists))
+                .map_err(|problem| Error::option(format!("{kind} '{name}'"), problem))?;
         }
         Ok(())
+    }
+}
+
+impl Splats {
+    /// Refuses a list that is shorter or longer than that of positions.
+    pub(crate) fn check_lengths(&self) -> std::result::Result<(), String> {
+        check(lists(self))
+    }
+}
+
+fn check((positions, lists): Lists) -> std::result::Result<(), String> {
+    let other = |count: &usize| *count != positions;
+    match lists.into_iter().find_map(|(list, count)| Some((list, count.filter(other)?))) {
+        Some((list, count)) => Err(format!("{positions} positions, and {count} {list}; expected as many")),
+        None => Ok(()),
     }
 }
 

@@ -44,6 +44,8 @@ pub trait OptionTable: Default + 'static {
 pub struct Setting<S> {
     /// The option's name, without the dashes.
     pub name: &'static str,
+    /// The field's own name.
+    pub field: &'static str,
     /// The kind of its value, in a word or two.
     pub value_name: &'static str,
     /// Its meaning, in Markdown.
@@ -133,6 +135,7 @@ macro_rules! settings {
         impl $crate::scene::OptionTable for $name {
             const OPTIONS: &'static [$crate::scene::Setting<Self>] = &[$($crate::scene::Setting {
                 name: $option,
+                field: stringify!($field),
                 value_name: $value_name,
                 help: concat!($($help),+),
                 choices: <$type as $crate::scene::OptionValue>::CHOICES,

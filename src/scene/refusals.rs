@@ -1,8 +1,6 @@
 //! Cameras and scenes of which settings have no picture.
 
-use super::{
-    Camera, Filter, Light, MOST_LIGHTS, Object, Opacity, Rasterizer, Scene, Settings, Shading, Shapes,
-};
+use super::{Camera, Filter, Object, Opacity, Rasterizer, Scene, Settings, Shading, Shapes};
 use crate::error::{Error, Result};
 
 impl Settings {
@@ -46,11 +44,7 @@ impl Settings {
     /// [`crate::error::ErrorKind::Option`] for `adjust-paper` where an object has elliptic splats; for lights that are
     /// none, or too many; as [`Self::check_eye_dome`].
     pub fn check_scene(&self, scene: &Scene) -> Result<()> {
-        scene.lights.iter().try_for_each(Light::validate)?;
-        if scene.lights.len() > MOST_LIGHTS {
-            let problem = format!("{}: expected at most {MOST_LIGHTS}", scene.lights.len());
-            return Err(Error::option("lights", problem));
-        }
+        scene.check_lights()?;
         let splats = scene.objects.iter().map(|object| (&object.name, object.splats.colors.opacity()));
         let leveled = scene.leveled.iter().map(|object| (&object.name, object.opacity));
         splats

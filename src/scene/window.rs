@@ -37,6 +37,7 @@ impl Window {
         }
         if !self.corner_px.iter().all(|at| at.abs() <= LARGEST_WHOLE_PX.into()) {
             let [x, y] = self.corner_px;
+            let [x, y] = [x, y].map(|at| if at.abs() < 1e9 { format!("{at}") } else { format!("{at:e}") });
             let problem = format!("{x},{y}: expected a corner at most {LARGEST_WHOLE_PX} pixels off");
             return Err(Error::option("--crop", problem));
         }

@@ -159,6 +159,9 @@ impl Deref for Occlusion {
     }
 }
 
+/// The most queries of a pool: more than any frame has; of many more drivers promise memory that they don't have.
+const MOST_QUERIES: u32 = 1 << 20;
+
 /// The queries of a pool, whatever they ask.
 pub struct QueryPool {
     owned: Owned<vk::QueryPool>,
@@ -170,6 +173,10 @@ impl QueryPool {
     fn new(device: &Device, name: &str, info: vk::QueryPoolCreateInfo<'_>) -> Result<Self> {
         if info.query_count == 0 {
             return Err(Error::option(name, "a pool of no queries"));
+        }
+        if info.query_count > MOST_QUERIES {
+            let problem = format!("a pool of {} queries: expected at most {MOST_QUERIES}", info.query_count);
+            return Err(Error::option(name, problem));
         }
         // SAFETY: the device is alive and has the feature, see the callers; there are some.
         let raw =

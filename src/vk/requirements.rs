@@ -8,6 +8,7 @@ use super::{
     choose::{DeviceFacts, Limits},
     facts::facts,
     features::Features,
+    formats::{COLOR_FORMATS, DEPTH_FORMATS},
 };
 
 /// What a host creates its device with so that we can be its guest, and what this physical device has of it.
@@ -34,25 +35,6 @@ pub struct Requirements {
     /// What the device lacks, by name; empty where it will do.
     pub missing: Vec<String>,
 }
-
-const COLOR_FORMATS: [vk::Format; 8] = [
-    vk::Format::B8G8R8A8_SRGB,
-    vk::Format::R8G8B8A8_SRGB,
-    vk::Format::B8G8R8A8_UNORM,
-    vk::Format::R8G8B8A8_UNORM,
-    vk::Format::A2B10G10R10_UNORM_PACK32,
-    vk::Format::B10G11R11_UFLOAT_PACK32,
-    vk::Format::R16G16B16A16_SFLOAT,
-    vk::Format::R32G32B32A32_SFLOAT,
-];
-
-const DEPTH_FORMATS: [vk::Format; 5] = [
-    vk::Format::D32_SFLOAT,
-    vk::Format::D32_SFLOAT_S8_UINT,
-    vk::Format::D24_UNORM_S8_UINT,
-    vk::Format::X8_D24_UNORM_PACK32,
-    vk::Format::D16_UNORM,
-];
 
 /// What a device of this physical device must be created with.
 ///

@@ -12,6 +12,7 @@ mod memory;
 mod objects;
 mod onto;
 mod recording;
+mod refusals;
 mod several;
 mod tints;
 mod transparent;

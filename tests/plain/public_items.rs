@@ -25,8 +25,8 @@ const INTERFACE: &[(&[&str], &[&str])] = &[
     (&["prepare/"], &["Placed", "NO_TINT", "PreparedScene", "DynamicSplats", "DynamicBuffers"]),
     (&["prepare/dynamic.rs"], &["disk", "color"]),
     (&["graph/resource.rs"], &["ImageState"]),
-    (&["graph/execute/profiler.rs"], &["FrameProfile", "PassProfile", "PassCounts"]),
-    (&["vk/"], &["Device", "Features", "FeaturesApart", "Import", "Requirements", "requirements"]),
+    (&["graph/execute/profiler.rs"], &["Profile", "FrameProfile", "PassProfile", "PassCounts"]),
+    (&["vk/"], &["Limits", "Device", "Features", "FeaturesApart", "Import", "Requirements", "requirements"]),
     (&["vk/memory.rs", "vk/host_memory.rs"], &["HostMemory", "MemoryRequest", "MemoryUse", "HostAllocation"]),
     (
         &["scene/"],
@@ -44,9 +44,78 @@ const INTERFACE: &[(&[&str], &[&str])] = &[
             "Light",
             "LightKind",
             "Storage",
+            // What those have in them.
+            "Accumulate",
+            "Backfaces",
+            "Ball",
+            "Bounds",
+            "Budget",
+            "Camera",
+            "Clip",
+            "ClipBox",
+            "ClipPlanes",
+            "ClipCurve",
+            "Clips",
+            "Cull",
+            "Defect",
+            "DefectCounts",
+            "DepthOfHost",
+            "Edges",
+            "Epsilon",
+            "Filter",
+            "FilterWeight",
+            "Kernel",
+            "KernelEval",
+            "LastLayer",
+            "Layers",
+            "Lod",
+            "LodSteps",
+            "Opacity",
+            "Order",
+            "Outlines",
+            "Rasterizer",
+            "Samples",
+            "Shading",
+            "SplatFormat",
+            "TileInvocations",
+            "TileMemory",
+            "Transition",
+            "Window",
         ],
     ),
     (&["error"], &["Error", "ErrorKind"]),
+];
+
+/// Types that signatures of the interface name, but which are the program's and the tests' own: what has them in its signature may change with them.
+const INSIDE: &[&str] = &[
+    "Chunk",
+    "DeviceFacts",
+    "Explanation",
+    "Floors",
+    "Formula",
+    "FrameSlot",
+    "HybridLevels",
+    "Instance",
+    "LeveledObject",
+    "MeshChunk",
+    "OptionValue",
+    "PickPlan",
+    "Plan",
+    "Readbacks",
+    "Refinements",
+    "Shaders",
+    "Stage",
+    "Staging",
+    "Surface",
+    "Target",
+    "ViewFromWorld",
+];
+
+/// Types of the language and of other crates: `glam` is public as `surfel::glam`, `ash` as `surfel::ash`.
+const FOREIGN: &[&str] = &[
+    "Arc", "BTreeMap", "CStr", "Clone", "Copy", "DAffine3", "DMat3", "DMat4", "DQuat", "DVec2", "DVec3",
+    "DVec4", "Default", "Duration", "Fn", "FnMut", "From", "Into", "Item", "Iterator", "NonNull", "Option",
+    "Path", "PathBuf", "Result", "Self", "Send", "String", "Sync", "Vec", "Vec2", "Vec3",
 ];
 
 /// Every file of `src/` below these paths, but tests, with its text, in order.
@@ -179,11 +248,13 @@ fn parts<'t>(tokens: &'t [Token]) -> Vec<&'t [Token]> {
     parts.into_iter().map(plain).filter(|part| !part.is_empty()).collect()
 }
 
-/// What is public of a declaration that begins at a `pub` or, in a table of settings, at its name.
+/// What is public of a declaration that begins at a `pub` or, in a table of settings or an enum of names, at its name.
 fn declaration(tokens: &[Token]) -> String {
     let of_settings = tokens[0].text != "pub";
     let is = |word: &str| head(tokens).iter().any(|token| token.text == word);
-    let first = if of_settings { format!("pub struct {}", tokens[0].text) } else { text(head(tokens)) };
+    // A table has types.
+    let kind = if body(tokens).iter().any(|token| token.text == ":") { "struct" } else { "enum" };
+    let first = if of_settings { format!("pub {kind} {}", tokens[0].text) } else { text(head(tokens)) };
     let mut lines = match is("struct") {
         // What is in parentheses is private.
         true => first.split('(').next().unwrap_or_default().to_owned(),
@@ -207,7 +278,7 @@ fn declaration(tokens: &[Token]) -> String {
             || of_settings
             || part[0].text == "pub" && part.get(1).is_none_or(|next| next.text != "(");
         let part = text(part);
-        let part = part.split(" = ").next().unwrap_or_default();
+        let part = part.split(" = ").next().unwrap_or_default().trim_end_matches(" =");
         if public {
             write!(lines, "\n    {part}").unwrap();
         }
@@ -271,7 +342,15 @@ fn interface() -> String {
                         && tokens[at + 1].text == "{"
                         && tokens[..at].iter().rev().take(30).any(|token| token.text == "settings")
                         && tokens[..at].last().is_some_and(|token| token.text == "]");
-                    if is_it || of_settings {
+                    let of_names = tokens[at].text == *name
+                        && tokens[at + 1].text == "{"
+                        && tokens[..at]
+                            .iter()
+                            .rev()
+                            .take(3)
+                            .map(|token| token.text.as_str())
+                            .eq(["{", "!", "named"]);
+                    if is_it || of_settings || of_names {
                         declared.push(declaration(&tokens[at..]));
                     }
                 }
@@ -303,6 +382,43 @@ fn the_interface_is_what_it_was() {
         before == now,
         "gone: {gone:#?}\nnew: {new:#?}\nis it in CHANGELOG.md? Then SURFEL_UPDATE_SNAPSHOTS=1"
     );
+}
+
+/// A host reads of every type that it gets or gives: each that the snapshot names is in it, too, or is said to be inside.
+#[test]
+fn every_type_that_the_interface_names_is_in_it() {
+    let snapshot = interface();
+    let is_type = |word: &str| {
+        word.starts_with(|c: char| c.is_uppercase()) && word.contains(|c: char| c.is_lowercase())
+    };
+    let known: Vec<&str> = INTERFACE.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+    let (mut missing, mut inside) = (Vec::new(), Vec::new());
+    let mut of_enum = false;
+    for line in snapshot.lines() {
+        if line.starts_with("pub ") {
+            of_enum = line.starts_with("pub enum");
+        }
+        // A variant's own name is none of a type, nor is what another crate has in its module.
+        let line =
+            if of_enum { line.trim_start().trim_start_matches(|c: char| c.is_alphanumeric()) } else { line };
+        let mut begin = 0;
+        while let Some(next) = line[begin..].find(|c: char| c.is_alphanumeric() || c == '_') {
+            let at = begin + next;
+            let word = line[at..].split(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap();
+            let foreign =
+                ["vk::", "ash::", "io::", "fmt::"].iter().any(|module| line[..at].ends_with(module));
+            if is_type(word) && !foreign && !known.contains(&word) && !FOREIGN.contains(&word) {
+                let found = if INSIDE.contains(&word) { &mut inside } else { &mut missing };
+                found.push(word.to_owned());
+            }
+            begin = at + word.len();
+        }
+    }
+    missing.sort();
+    missing.dedup();
+    assert!(missing.is_empty(), "in no list: {missing:?}");
+    let idle: Vec<_> = INSIDE.iter().filter(|name| !inside.iter().any(|found| found == *name)).collect();
+    assert!(idle.is_empty(), "named by nothing: {idle:?}");
 }
 
 /// All that `surfel::embed` gives is in the snapshot.

@@ -64,14 +64,14 @@ void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, cons
     frame.worldFromScene = place;
     IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "scene 0: placement");
     place[10] = 1;
+    IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "size_px: 0x0");
+    frame.width = WIDTH;
+    frame.height = HEIGHT;
     IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "camera");
     const double view_from_world[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1};
     const double clip_from_view[] = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0};
     memcpy(frame.viewFromWorld, view_from_world, sizeof view_from_world);
     memcpy(frame.clipFromView, clip_from_view, sizeof clip_from_view);
-    IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "--size: 0x0");
-    frame.width = WIDTH;
-    frame.height = HEIGHT;
     scenes[0] = foreign;
     IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "scene: was prepared for another device");
     scenes[0] = ball;

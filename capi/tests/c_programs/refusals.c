@@ -35,6 +35,10 @@ static void structs(void) {
     info.size = offsetof(SurfelSceneInfo, levels);
     OK(surfel_scene_create(&info, &scene));
     surfel_scene_destroy(scene);
+    info.size = sizeof info;
+    info.reserved = 7;
+    IS(NEWER_STRUCT, surfel_scene_create(&info, &scene), "info: reserved is 7: this library knows 0");
+    info.reserved = 0;
     info.size = 0;
     IS(INVALID_ARGUMENT, surfel_scene_create(&info, &scene), "size 0");
     surfel_scene_destroy(NULL);
@@ -94,6 +98,9 @@ static void scenes(const char *splats_file, const char *garbage) {
     splats.name = "\xff";
     IS(INVALID_ARGUMENT, surfel_scene_add_splats(scene, &splats), "name is not UTF-8");
     splats.name = "two";
+    splats.reserved = 1;
+    IS(NEWER_STRUCT, surfel_scene_add_splats(scene, &splats), "splats: reserved is 1");
+    splats.reserved = 0;
     OK(surfel_scene_add_splats(scene, &splats));
     OK(surfel_scene_ball(scene, center, &radius));
     TRUE(center[0] == 0.5 && radius == 1.5);
@@ -103,7 +110,8 @@ static void scenes(const char *splats_file, const char *garbage) {
     IS(INVALID_ARGUMENT, surfel_scene_add_file(scene, NULL), "path is NULL");
     OK(surfel_scene_add_file(scene, splats_file));
     IS(OPTION, surfel_scene_add_light(scene, "torch"), "light: 'torch'");
-    OK(surfel_scene_add_light(scene, "direction=0,0,-1,intensity=0.5"));
+    for (int i = 0; i < 16; i++) OK(surfel_scene_add_light(scene, "direction=0,0,-1,intensity=0.5"));
+    IS(OPTION, surfel_scene_add_light(scene, "eye"), "light: the scene has 16 already");
     IS(OPTION, surfel_scene_set(scene, "order", "random"), "order: random: expected morton, input");
     IS(OPTION, surfel_scene_set(scene, "colour", "1"), "colour: expected one of order, splat-format");
     OK(surfel_scene_set(scene, "splat-format", "packed"));
@@ -129,6 +137,8 @@ static SurfelDevice *import(Engine *engine, uint64_t features) {
     host.instance = engine->instance;
     host.features = features & ~(uint64_t)SURFEL_FEATURE_MAINTENANCE4;
     IS(NO_DEVICE, surfel_device_import(&host, &device), "maintenance4 is not enabled");
+    host.features = features | (uint64_t)1 << 40;
+    IS(INVALID_ARGUMENT, surfel_device_import(&host, &device), "features: 0x10000000000 is of none");
     host.features = features;
     host.queueFamily = 99;
     IS(NO_DEVICE, surfel_device_import(&host, &device), "");
@@ -160,6 +170,7 @@ int main(int argc, char **argv) {
     OK(surfel_requirements(engine->instance, engine->physical, vkGetInstanceProcAddr, &needs));
     TRUE(needs.queueFamily != 77 && needs.colorFormatCount > 0 && needs.depthFormatCount > 0);
     IS(INVALID_ARGUMENT, surfel_enable_features(needs.features, NULL, &engine->vulkan12, &engine->vulkan13), "core");
+    IS(INVALID_ARGUMENT, surfel_enable_features((uint64_t)1 << 40, &engine->core, &engine->vulkan12, &engine->vulkan13), "features");
     OK(surfel_enable_features(needs.features, &engine->core, &engine->vulkan12, &engine->vulkan13));
     TRUE(engine->vulkan13.maintenance4 == VK_TRUE && engine->vulkan13.dynamicRendering == VK_TRUE);
     engine_open(engine, needs.queueFamily);

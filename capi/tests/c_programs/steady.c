@@ -53,7 +53,7 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     const double places[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1};
     const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes,
                                .worldFromScene = places, .settings = settings, .sceneCount = 2,
-                               .width = WIDTH, .height = HEIGHT,
+                               .width = WIDTH, .height = HEIGHT, .refusesMissing = VK_TRUE,
                                .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1},
                                .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
     const SurfelHostImage color = image(&engine->color, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -64,6 +64,16 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     const size_t bytes = sizeof(float) * 4 * WIDTH * HEIGHT;
     float *by_two_calls = malloc(bytes);
     TRUE(by_two_calls);
+    /* What is missing is refused until it is made, and not waited for. */
+    engine_begin(engine);
+    IS(NOT_READY, surfel_view_prepare(view, engine->commands, &frame), "compile_ahead has not made");
+    uint64_t made = 0;
+    OK(surfel_compile_ahead(renderer, &rendering, &frame, &made));
+    TRUE(made > 0);
+    OK(surfel_compile_ahead(renderer, &rendering, &frame, &made));
+    TRUE(made == 0);
+    OK(surfel_compile_ahead(renderer, &rendering, &frame, NULL));
+    IS(INVALID_ARGUMENT, surfel_compile_ahead(NULL, &rendering, &frame, &made), "renderer is NULL");
     for (int number = 0; number < FRAMES; number++) {
         engine_begin(engine);
         engine_begin_rendering(engine, 1);

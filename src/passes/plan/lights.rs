@@ -19,11 +19,12 @@ fn each_once<'s, 'a>(scenes: &'s [Placed<'a>]) -> impl Iterator<Item = &'s Place
     (0..scenes.len()).filter(move |i| !scenes[*i].scene.lights.is_empty() && is_first(*i)).map(|i| &scenes[i])
 }
 
-/// Refuses more lights in all than shaders take.
+/// Refuses lights that are none, and more of them in all than shaders take.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Option`].
 pub(crate) fn check(scenes: &[Placed<'_>]) -> Result<()> {
+    each_once(scenes).flat_map(|placed| &placed.scene.lights).try_for_each(Light::validate)?;
     let count: usize = each_once(scenes).map(|placed| placed.scene.lights.len()).sum();
     match count <= MOST_LIGHTS {
         true => Ok(()),

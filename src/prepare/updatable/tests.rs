@@ -116,6 +116,26 @@ fn what_is_no_update_is_refused_and_changes_nothing() {
     let [s, t] = axes;
     let shapes = Shapes::Ellipses { s, t };
     assert!(refused(0, 100, &Splats { shapes, ..part.clone() }).contains("expected disks"));
+    // Lists of another length, as an upload refuses them.
+    let of = |normals, radii| Shapes::Disks { normals: vec![Vec3::Z; normals], radii: vec![0.1; radii] };
+    let colors = || Colors::Uniform([1.0; 4]);
+    for (shapes, colors, words) in [
+        (of(9, 10), colors(), "9 normals"),
+        (of(10, 3), colors(), "3 radii"),
+        (of(10, 11), colors(), "11 radii"),
+        (of(10, 10), Colors::Each(vec![[1.0; 4]; 4]), "4 colors"),
+    ] {
+        let expected = format!("update: 10 positions, and {words}; expected as many");
+        assert_eq!(refused(0, 100, &Splats { shapes, colors, ..part.clone() }), expected);
+    }
+    // So large that no camera could show the rest.
+    let mut wrong = part.clone();
+    let Shapes::Disks { radii, .. } = &mut wrong.shapes else { panic!("disks") };
+    radii[2] = f32::MAX;
+    assert!(refused(0, 100, &wrong).contains("splat 102: its radius"), "{}", refused(0, 100, &wrong));
+    let mut wrong = part.clone();
+    wrong.positions[4].x = 1e30;
+    assert!(refused(0, 100, &wrong).contains("splat 104: it lies"), "{}", refused(0, 100, &wrong));
     assert_eq!(prepared.chunks[0].bounds, before);
     prepared.update(None, 0, 100, &part).unwrap();
     assert_ne!(prepared.chunks[0].bounds, before);
