@@ -75,7 +75,12 @@ impl FrameSlot {
         self.profiler.as_ref().map(|(profiler, _)| profiler)
     }
 
-    /// Bytes of device memory in transients.
+    /// Bytes of device memory that the transients of the frame recorded last take.
+    pub fn frame_bytes(&self) -> u64 {
+        self.kept.last_bytes()
+    }
+
+    /// Bytes of device memory in transients, of this frame and of those before.
     pub fn transient_bytes(&self) -> u64 {
         self.kept.bytes()
     }

@@ -132,7 +132,7 @@ impl Headless {
 
     /// Bytes of device memory in transients of the frame rendered last.
     pub fn transient_bytes(&self) -> u64 {
-        self.slot.transient_bytes()
+        self.slot.frame_bytes()
     }
 
     /// Refuses a renderer of another device, which nobody is kept from putting in the place of this one's.

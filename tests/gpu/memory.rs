@@ -202,10 +202,10 @@ fn allocations(count: usize, rasterizer: Rasterizer, is_inside: bool) -> [usize;
     let prepared = headless.prepare(&scene, &|_, _| {}).unwrap();
     let (device, renderer) = (headless.device(), &headless.renderer);
     let (pool, mut slot) = (CommandPool::new(device, "recorded").unwrap(), FrameSlot::new(device));
-    let targets = [SMALL_PX, [SMALL_PX[1], SMALL_PX[0]]];
+    let targets = [SMALL_PX, [SMALL_PX[1], SMALL_PX[0]], [56, 52]];
     let targets = targets.map(|size_px| HeadlessTarget::new(device, FORMAT, size_px).unwrap());
-    // The second and the third have one target, the fourth another; all have their pipelines by then.
-    let frames = [&targets[1], &targets[0], &targets[0], &targets[1]].map(|target| {
+    // The second and the third have one target, the fourth one that no frame had; all have their pipelines by then.
+    let frames = [&targets[1], &targets[0], &targets[0], &targets[2]].map(|target| {
         let target = target.target();
         let size_px = [target.extent.width, target.extent.height];
         let settings = Settings { rasterizer, size_px, ..Settings::default() };

@@ -63,7 +63,12 @@ impl Kept {
         Ok(Arc::clone(&ready.plan))
     }
 
-    /// Bytes of device memory in transients.
+    /// Bytes of device memory that the transients of the last execution take.
+    pub fn last_bytes(&self) -> u64 {
+        self.ready.first().map_or(0, |ready| ready.plan.blocks.iter().map(|block| block.size_bytes).sum())
+    }
+
+    /// Bytes of device memory in transients, of all executions.
     pub fn bytes(&self) -> u64 {
         self.blocks.bytes()
     }
