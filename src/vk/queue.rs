@@ -81,14 +81,14 @@ impl Queue {
 
     /// Records that all is done which validation was told to be, before other commands that draw to an image of a window. Layers of 1.3.239
     /// take from an image that is acquired again what its submission before has accessed, even where the queue was idle since and others
-    /// have that memory now; and they would hand it on from image to image. Records nothing where there is nothing to tell.
+    /// have that memory now, as plans of several shapes share theirs; and they would hand it on from image to image. Records nothing where validation was told nothing.
     ///
     /// # Safety
     /// `commands` is recording outside of rendering, and is submitted by [`Queue::submit_for_window`] with this image.
     #[cfg(feature = "view")]
     pub unsafe fn tell_done(&self, commands: vk::CommandBuffer, image: &super::SwapchainImage) {
         let before = image.epoch.load(Ordering::Acquire);
-        if before == 0 || before > self.told.load(Ordering::Acquire) {
+        if before == 0 || self.told.load(Ordering::Acquire) == 0 {
             return;
         }
         let barrier = [vk::MemoryBarrier2::default()
