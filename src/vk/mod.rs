@@ -75,6 +75,7 @@ pub use pipeline_cache::PipelineCache;
 pub use pool_sizes::PoolSizes;
 pub use queries::{Occlusion, QueryPool, Statistics, Timestamps};
 pub use queue::Queue;
+pub(crate) use queue::wait_for_all;
 pub use requirements::{Requirements, requirements};
 pub use result::VkResultExt;
 pub use sampler::Sampler;

@@ -21,7 +21,6 @@ pub struct Queue {
 }
 
 /// All stages of ours that read or write; best-practices validation wants them by name.
-#[cfg(feature = "view")]
 const ALL_STAGES: vk::PipelineStageFlags2 = {
     use vk::PipelineStageFlags2 as Stages;
     let graphics = Stages::DRAW_INDIRECT.as_raw()
@@ -32,6 +31,21 @@ const ALL_STAGES: vk::PipelineStageFlags2 = {
         | Stages::COLOR_ATTACHMENT_OUTPUT.as_raw();
     Stages::from_raw(graphics | Stages::COMPUTE_SHADER.as_raw() | Stages::TRANSFER.as_raw())
 };
+
+/// Records that all commands before are done before any that follows begins.
+///
+/// # Safety
+/// `commands` is recording outside of rendering.
+pub(crate) unsafe fn wait_for_all(device: &Device, commands: vk::CommandBuffer) {
+    let barrier = [vk::MemoryBarrier2::default()
+        .src_stage_mask(ALL_STAGES)
+        .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+        .dst_stage_mask(ALL_STAGES)
+        .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
+    let info = vk::DependencyInfo::default().memory_barriers(&barrier);
+    // SAFETY: this function's contract.
+    unsafe { device.raw().cmd_pipeline_barrier2(commands, &info) };
+}
 
 impl Queue {
     /// The first queue of the device's family. At most one `Queue` may exist for a device at a time: its lock is what
@@ -81,24 +95,18 @@ impl Queue {
 
     /// Records that all is done which validation was told to be, before other commands that draw to an image of a window. Layers of 1.3.239
     /// take from an image that is acquired again what its submission before has accessed, even where the queue was idle since and others
-    /// have that memory now, as plans of several shapes share theirs; and they would hand it on from image to image. Records nothing where validation was told nothing.
+    /// have that memory now; and they would hand it on from image to image. Records nothing where there is nothing to tell.
     ///
     /// # Safety
     /// `commands` is recording outside of rendering, and is submitted by [`Queue::submit_for_window`] with this image.
     #[cfg(feature = "view")]
     pub unsafe fn tell_done(&self, commands: vk::CommandBuffer, image: &super::SwapchainImage) {
         let before = image.epoch.load(Ordering::Acquire);
-        if before == 0 || self.told.load(Ordering::Acquire) == 0 {
+        if before == 0 || before > self.told.load(Ordering::Acquire) {
             return;
         }
-        let barrier = [vk::MemoryBarrier2::default()
-            .src_stage_mask(ALL_STAGES)
-            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
-            .dst_stage_mask(ALL_STAGES)
-            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
-        let info = vk::DependencyInfo::default().memory_barriers(&barrier);
         // SAFETY: this function's contract.
-        unsafe { self.device.raw().cmd_pipeline_barrier2(commands, &info) };
+        unsafe { wait_for_all(&self.device, commands) };
     }
 
     /// Submits between the acquisition of a window's image and its presentation: colors are written once `acquired` is signaled, and

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    vk::{Device, texel_bytes},
+    vk::{Device, texel_bytes, wait_for_all},
 };
 
 /// The plans and the transients of executions, for those that follow.
@@ -25,6 +25,8 @@ pub struct Kept {
     ready: Vec<Ready>,
     blocks: Blocks,
     executions: u64,
+    /// The execution before was of another plan, in the same memory.
+    is_another: bool,
 }
 
 /// What a frame of one shape is executed with.
@@ -57,7 +59,13 @@ impl Kept {
         imports: &[(ResourceId, Physical)],
         profiler: Option<&mut Profiler>,
     ) -> Result<Arc<Plan>> {
-        let ready = self.ready(device, graph)?;
+        self.ready(device, graph)?;
+        let ready = &self.ready[0];
+        if self.is_another {
+            // What another plan had in this memory no barrier of this one knows.
+            // SAFETY: this function's contract.
+            unsafe { wait_for_all(device, commands) };
+        }
         // SAFETY: this function's contract.
         unsafe { execute(device, commands, (&ready.plan, graph), &ready.transients, imports, profiler) }?;
         Ok(Arc::clone(&ready.plan))
@@ -73,14 +81,17 @@ impl Kept {
         self.blocks.bytes()
     }
 
-    fn ready(&mut self, device: &Device, graph: &Graph<'_, Body<'_>>) -> Result<&Ready> {
+    /// Puts what serves a graph first.
+    fn ready(&mut self, device: &Device, graph: &Graph<'_, Body<'_>>) -> Result<()> {
         self.executions += 1;
         if self.executions.is_multiple_of(FRAMES_OF_LATE) {
             self.give_back();
         }
         let sizes = graph.declared.resources.iter().map(|resource| sizes_of(&resource.desc, device));
         let serves = |ready: &Ready| ready.plan.has_shape_of(graph) && serve(&ready.rooms, sizes.clone());
-        match self.ready.iter().position(serves) {
+        let place = self.ready.iter().position(serves);
+        self.is_another = place != Some(0) && !self.ready.is_empty();
+        match place {
             Some(place) => self.ready[..=place].rotate_right(1),
             None => {
                 let made = self.make(device, graph);
@@ -95,7 +106,7 @@ impl Kept {
             Arc::make_mut(&mut ready.plan).resize(graph);
         }
         self.blocks.note(&ready.plan.blocks, ready.transients.memory());
-        Ok(ready)
+        Ok(())
     }
 
     /// What a graph is executed with for which nothing that is kept serves.
