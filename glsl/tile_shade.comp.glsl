@@ -40,15 +40,18 @@ void begin_surface()
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
         begin_covering(row);
+        begin_creases(row);
         visible_away[row] = false;
     }
 }
 
-// The depth of the surface that was summed.
+// The depth of the surface that was summed; of both sides of a ridge, that of the one which has more of the pixel.
 float own_depth_of(int row)
 {
-    float mean = FORMULA(FORMULA_NORMALIZED_DEPTH, normals[row].w / colors[row].w);
-    return colors[row].w > 0.0 ? depth_of_mean(visible[row], mean) : 0.0;
+    bool beyond = CREASES && !(colors[row].w > 0.0);
+    vec2 sums = beyond ? vec2(normals_beyond[row].w, colors_beyond[row].w) : vec2(normals[row].w, colors[row].w);
+    float mean = FORMULA(FORMULA_NORMALIZED_DEPTH, sums.x / sums.y);
+    return sums.y > 0.0 ? depth_of_mean(visible[row], mean) : 0.0;
 }
 
 // What a polygon shows at the pixel, behind all splats that it does not hide.
@@ -90,7 +93,13 @@ void shade_edges(Range range)
         left = false;
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             Surface surface = normalized(colors[row], normals[row].xyz);
-            vec3 color = shaded(surface.albedo, surface.normal, to_eye(top_px + vec2(0.0, float(first_row + row))));
+            vec3 v = to_eye(top_px + vec2(0.0, float(first_row + row)));
+            vec3 color = shaded(surface.albedo, surface.normal, v);
+            if (CREASES) {
+                Surface beyond = normalized(colors_beyond[row], normals_beyond[row].xyz);
+                color = mix(color, shaded(beyond.albedo, beyond.normal, v), share_beyond(row));
+                surface.weight += beyond.weight;
+            }
             float opacity = opacity_of(row);
             bool beside = nearest_polygon[row] > visible[row];
             if (WITH_POLYGONS && beside) {

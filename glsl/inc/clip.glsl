@@ -44,6 +44,15 @@ float part_of(float kept)
     return kept - 2.0 * floor(0.5 * kept);
 }
 
+const float BY_PLANE = 8.0; // added where a plane decides what is left, not a curve
+
+// The direction's number.
+float toward_of(float kept)
+{
+    float number = floor(0.5 * kept);
+    return number >= 0.5 * BY_PLANE ? number - 0.5 * BY_PLANE : number;
+}
+
 float at(vec4 line, vec2 px)
 {
     return line.x * px.x + line.z + line.y * px.y; // the first sum is one for a column

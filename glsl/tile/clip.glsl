@@ -53,7 +53,7 @@ void cut_by_planes(Splat splat, inout float kept[ROWS])
         if (min(first, last) >= (COVERAGE_EDGES ? 0.5 : 0.0)) {
             continue; // as most columns have it
         }
-        float toward = 2.0 * float(quarter_of(per_px));
+        float toward = 2.0 * float(quarter_of(per_px)) + BY_PLANE;
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             float inside = at_top + per_row * float(first_row + row);
             float part = COVERAGE_EDGES ? clamp(0.5 + inside, 0.0, 1.0) : inside < 0.0 ? 0.0 : 1.0;

@@ -31,7 +31,7 @@ void cover(float weight, float part, float kept, int row)
         bool cut = part_kept < 1.0;
         uncut[row] = cut ? uncut[row] : vec2(uncut[row].x + weight, uncut[row].y * left);
         float most = cut ? part_kept : 0.0;
-        kept_toward[row] = max(kept_toward[row], mix(vec4(0.0), vec4(most), equal(vec4(floor(0.5 * kept)), vec4(0.0, 1.0, 2.0, 3.0))));
+        kept_toward[row] = max(kept_toward[row], mix(vec4(0.0), vec4(most), equal(vec4(toward_of(kept)), vec4(0.0, 1.0, 2.0, 3.0))));
     }
 }
 

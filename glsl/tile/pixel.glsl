@@ -32,6 +32,7 @@ vec4 normals[ROWS];  // weighted normal; OF_LAYERS: weighted alpha; WITH_DEPTH: 
 #endif
 
 #include "tile/covering.glsl"
+#include "tile/creases.glsl"
 #include "inc/outline.glsl"
 
 // A splat along the column of pixels: over w0, (uw, vw, w) = at_center_row + along_y * dy. Rows are computed from the splat's center,
@@ -153,18 +154,32 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
         float part = attributes.own_part.x - attributes.own_part.y * r2;
         cover(inside ? shared_weight : 0.0, inside ? part : 0.0, inside ? kept : 1.0, row);
     }
+    bool beyond = CREASES && is_beyond(kept);
+    if (CREASES) {
+        note_kept(beyond, inside ? part_of(kept) : 0.0, row);
+    }
     vec3 color = attributes.color;
     if (OUTLINES) {
         bool outline = is_outline(r2);
         weight *= outline ? OUTLINE_WEIGHT : 1.0;
         color = outline ? vec3(0.0) : color;
     }
+    // Where the splat is not inside, depth may be 0.
+    float summed_depth = WITH_DEPTH && inside ? FORMULA(FORMULA_DEPTH_SUM, depth_term(visible[row], depth)) : 0.0;
+    if (CREASES) {
+        float weight_beyond = beyond ? weight : 0.0;
+        weight = beyond ? 0.0 : weight;
+        colors_beyond[row] += weight_beyond * vec4(color, 1.0);
+        normals_beyond[row].xyz += weight_beyond * attributes.normal;
+        if (WITH_DEPTH) {
+            normals_beyond[row].w += weight_beyond * summed_depth;
+        }
+    }
     colors[row] += weight * vec4(color, 1.0);
     normals[row].xyz += weight * attributes.normal;
     if (OF_LAYERS) {
         normals[row].w += weight * attributes.alpha;
     } else if (WITH_DEPTH) {
-        // Where the splat is not inside, depth may be 0.
-        normals[row].w += inside ? weight * FORMULA(FORMULA_DEPTH_SUM, depth_term(visible[row], depth)) : 0.0;
+        normals[row].w += weight * summed_depth;
     }
 }

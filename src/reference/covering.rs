@@ -8,12 +8,12 @@
 use glam::DVec3;
 
 use super::band::Frame;
+use super::creases::CreasedSums;
 use super::drawn_clip::Kept;
 use super::fragment::Fragment;
 use super::front::Front;
 use super::layers::{Source, Translucent, take_nearest_side};
 use super::splat::DrawnSplat;
-use super::surface::Sums;
 use crate::scene::{MeshObject, Opacity, Scene, Settings, Transition};
 
 /// The most surfaces of a pixel.
@@ -133,7 +133,7 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
         // Both sides of a thin thing are nearer to each other than a slanted splat's ε.
         let (layer, margin) = take_nearest_side(&mut fragments, &|fragment| splat_of(fragment).faces_away);
         seen.margin = seen.margin.min(margin);
-        let mut sums = Sums::default();
+        let mut sums = CreasedSums::default();
         // Behind the polygon, shifted toward the eye, they are another surface.
         let threshold = polygon_z.min(nearest);
         let of_surface: Vec<_> = layer
@@ -147,19 +147,20 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
             })
             .collect();
         for fragment in &of_surface {
-            sums.add(Fragment { z: fragment.z, weight: fragment.weight }, splat_of(fragment));
+            let of = Fragment { z: fragment.z, weight: fragment.weight };
+            sums.add(of, fragment.kept, splat_of(fragment));
         }
         let part = match frame.settings.transition {
             Transition::None if beside => 0.0,
-            _ if beside => (sums.weight / WHOLE_SEAM_SUM).min(1.0),
+            _ if beside => (sums.weight() / WHOLE_SEAM_SUM).min(1.0),
             _ => covered(&of_surface, splat_of),
         };
-        if let Some(surface) = sums.surface(&frame.shader, ray) {
+        if let Some(color) = sums.color(&frame.shader, ray) {
             let part = part.min(1.0 - seen.alpha);
             if seen.alpha < 0.5 && seen.alpha + part >= 0.5 {
                 seen.hides_beyond = nearest;
             }
-            seen.color += part * surface.color;
+            seen.color += part * color;
             seen.alpha += part;
         } else {
             break;

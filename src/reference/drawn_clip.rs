@@ -42,11 +42,13 @@ pub(super) struct Kept {
     pub part: f64,
     /// In which quarter of the circle the curve that decides keeps, 0 to 3.
     pub toward: usize,
+    /// A plane decides, not a curve.
+    pub by_plane: bool,
 }
 
 impl Kept {
-    /// The factor of a splat's weight in colors and normals: of both sides of a ridge, the one that has more of the pixel has next to all of
-    /// it, for the mean of their normals would be that of neither.
+    /// The factor of a splat's weight in colors and normals: of what is summed together, that which has more of the pixel has next to all of
+    /// it, for the mean of the normals on both sides of a ridge would be that of neither.
     pub fn priority(self) -> f64 {
         // What covers has a weight.
         self.part.powi(16).max(1e-18)
@@ -117,11 +119,15 @@ impl DrawnClip {
     /// What a pixel sees of the splat.
     pub fn kept(&self, ray: DVec3) -> Kept {
         let Some(ramp) = &self.ramp else {
-            return Kept { part: f64::from(u8::from(!self.removes(ray, DVec2::ZERO))), toward: 0 };
+            return Kept {
+                part: f64::from(u8::from(!self.removes(ray, DVec2::ZERO))),
+                toward: 0,
+                by_plane: false,
+            };
         };
         let kept = |curve| self.kept_by(ramp, &Curve::of(curve), ray.truncate()).0;
         match &self.clip {
-            Clip::None => Kept { part: 1.0, toward: 0 },
+            Clip::None => Kept { part: 1.0, toward: 0, by_plane: false },
             Clip::One(curve) => kept(curve),
             Clip::Either(first, second) => {
                 let (first, second) = (kept(first), kept(second));
@@ -156,7 +162,10 @@ impl DrawnClip {
         let all = ends[0].abs() + ends[1].abs();
         let part = if all > 0.0 { (ends[0].max(0.0) + ends[1].max(0.0)) / all } else { 1.0 };
         let quarters = (across.to_angle() - FRAC_PI_8) / FRAC_PI_2;
-        (Kept { part, toward: quarters.floor().rem_euclid(4.0) as usize }, ends[0].max(ends[1]) / all)
+        (
+            Kept { part, toward: quarters.floor().rem_euclid(4.0) as usize, by_plane: false },
+            ends[0].max(ends[1]) / all,
+        )
     }
 
     /// What becomes of a pixel, with (u, v) off by up to `margin` in any direction.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::creases::is_undecided;
 use super::drawn_clip::{Clipped, Kept};
 use super::intersect::r2_margin;
 use super::kernel::weight;
@@ -93,7 +94,8 @@ impl DrawnSplat {
         let clipped = self.clip.map_or(Clipped::Kept, |clip| clip.near(ray, margin));
         let z = disk.map(|disk| disk.1.z).or(low_pass.map(|part| part.1.z));
         let cut = z.map_or(Clipped::Kept, |z| self.near_planes(ray, z, view));
-        let at_curve = clipped == Clipped::Undecided || cut == Clipped::Undecided;
+        let at_half = || self.clip.and(z).and_then(|z| self.kept(ray, z, view)).is_some_and(is_undecided);
+        let at_curve = clipped == Clipped::Undecided || cut == Clipped::Undecided || at_half();
         if clipped == Clipped::Removed
             || cut == Clipped::Removed
             || !(at_disk || at_low_pass || at_square || at_curve)

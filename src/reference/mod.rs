@@ -36,6 +36,7 @@ mod band;
 mod bands;
 mod clip;
 mod covering;
+mod creases;
 mod decision;
 mod drawn_clip;
 mod edges;

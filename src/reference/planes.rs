@@ -56,8 +56,11 @@ fn inside(plane: DVec4, ray: DVec3, z: f64) -> f64 {
 impl DrawnSplat {
     /// What planes leave of it in a pixel that it covers at that depth; `None` where there are none.
     pub fn left_by_planes(&self, ray: DVec3, z: f64, view: &View) -> Option<Kept> {
-        let parts =
-            self.ramps(ray, z, view).map(|(part, toward)| Kept { part: part.clamp(0.0, 1.0), toward });
+        let parts = self.ramps(ray, z, view).map(|(part, toward)| Kept {
+            part: part.clamp(0.0, 1.0),
+            toward,
+            by_plane: true,
+        });
         parts.reduce(|least, kept| if kept.part < least.part { kept } else { least })
     }
 

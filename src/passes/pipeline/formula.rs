@@ -64,6 +64,7 @@ pub enum Formula {
     ClipCurve,
     ClipRamp,
     Plane,
+    Crease,
 }
 
 impl Formula {
@@ -85,8 +86,8 @@ impl Formula {
     /// Those of surfaces that cover pixels in part where they end.
     pub const OF_EDGES: [Self; 2] = [Self::EdgeOpacity, Self::Share];
 
-    /// Those of clip curves; the last of them where these cover pixels in part.
-    pub const OF_CLIPS: [Self; 3] = [Self::ClipLine, Self::ClipCurve, Self::ClipRamp];
+    /// Those of clip curves; the last two of them where these cover pixels in part.
+    pub const OF_CLIPS: [Self; 4] = [Self::ClipLine, Self::ClipCurve, Self::ClipRamp, Self::Crease];
 
     /// That of planes that cut what is seen.
     pub const OF_PLANES: [Self; 1] = [Self::Plane];
