@@ -9,12 +9,10 @@ mod shader_build;
 use std::{
     env, fs, io,
     path::{Path, PathBuf},
-    process::Command,
 };
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    tell_the_commit();
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default()).join("shaders");
     // Cargo shows each such line as an error and then stops the build.
     if let Err(errors) = empty(&out).and_then(|()| make_shaders(&out)) {
@@ -76,23 +74,4 @@ fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
 #[cfg(not(any(feature = "compile-shaders", feature = "prebuilt-spirv")))]
 fn make_shaders(_: &Path) -> Result<(), Vec<String>> {
     Err(vec!["expected one of the features compile-shaders (needs shaderc) and prebuilt-spirv".to_owned()])
-}
-
-/// Reports name the commit they were made from, as `SURFEL_COMMIT`: in a checkout, not in a package.
-fn tell_the_commit() {
-    let git = |arguments: &[&str]| {
-        let output = Command::new("git").args(arguments).output().ok().filter(|o| o.status.success())?;
-        Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
-    };
-    // Not that of a repository which this folder happens to lie in.
-    let is_ours = git(&["rev-parse", "--show-prefix"]).is_some_and(|prefix| prefix.is_empty());
-    if let (true, Some(commit)) = (is_ours, git(&["rev-parse", "--short=12", "HEAD"])) {
-        println!("cargo::rustc-env=SURFEL_COMMIT={commit}");
-        // Written by each commit and each checkout.
-        if let Some(log) =
-            git(&["rev-parse", "--git-path", "logs/HEAD"]).filter(|log| Path::new(log).exists())
-        {
-            println!("cargo::rerun-if-changed={log}");
-        }
-    }
 }

@@ -3,9 +3,9 @@
 //!
 //! No figure is made up: what was not measured is `None` (`null` in JSON) and a sentence among the flags says why.
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "compare")]
 pub mod bench;
-#[cfg_attr(not(feature = "cli"), allow(dead_code, reason = "most tables are the program's"))]
+#[cfg_attr(not(feature = "compare"), allow(dead_code, reason = "most tables are the program's"))]
 mod cells;
 #[cfg(feature = "compare")]
 pub mod compare;

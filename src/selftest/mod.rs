@@ -33,3 +33,6 @@ pub use known::{BUILT_IN, Entry, Expectation, Known, KnownList};
 pub use pattern::Pattern;
 pub use report::{CaseResult, Counts, SelftestReport, Status, ValidationReport};
 pub use run::{Event, Outcome, run};
+
+/// Tables of numerical stability, which the test `gpu stability` has measured: JSON of [`crate::report::Grid`]s.
+pub const STABILITY_TABLES: &str = include_str!("stability_tables.json");

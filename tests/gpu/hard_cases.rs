@@ -34,7 +34,7 @@
 //! | N30 attributes at the ends of their range | `numbers.rs` |
 //! | triangles seen exactly edge-on | `triangles.rs` |
 //!
-//! What files bring of N9 to N12, N20 and N30 is in `tests/cli/hard_files.rs`.
+//! What files bring of N9 to N12, N20 and N30 is in `program/tests/cli/hard_files.rs`.
 
 mod depth;
 mod large;

@@ -131,10 +131,7 @@ fn sources(paths: &[&str]) -> Vec<(String, String)> {
     files.sort();
     let named = |file: &std::path::PathBuf| file.strip_prefix(&root).unwrap().to_string_lossy().into_owned();
     let is_meant = |name: &str| {
-        paths.iter().any(|path| name.starts_with(path))
-            && !name.contains("tests")
-            && name.ends_with(".rs")
-            && !name.starts_with("bin/")
+        paths.iter().any(|path| name.starts_with(path)) && !name.contains("tests") && name.ends_with(".rs")
     };
     let files = files.into_iter().map(|file| (named(&file), file)).filter(|(name, _)| is_meant(name));
     files.map(|(name, file)| (name, fs::read_to_string(file).unwrap())).collect()

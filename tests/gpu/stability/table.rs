@@ -1,4 +1,4 @@
-//! The sweep as tables: printed, held to bounds, and written into `README.md` and `tables.json` beside this file.
+//! The sweep as tables: printed, held to bounds, and written into `README.md` beside this file and `src/selftest/stability_tables.json`.
 
 use std::{env, fs, path::Path};
 
@@ -195,8 +195,9 @@ fn figure(value: f64) -> String {
 /// Holds the committed tables to these: the same tables and rows. The figures depend on the device.
 /// `SURFEL_UPDATE_TABLES=1` writes them anew: for people, and as `surfel report` shows them.
 fn keep(grids: &[Grid]) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gpu/stability");
-    let [page, json] = ["README.md", "tables.json"].map(|name| folder.join(name));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = root.join("tests/gpu/stability/README.md");
+    let json = root.join("src/selftest/stability_tables.json");
     if env::var_os("SURFEL_UPDATE_TABLES").is_some_and(|value| value == "1") {
         let (begin, end) = ("<!-- tables: begin -->\n", "<!-- tables: end -->\n");
         let committed = fs::read_to_string(&page).unwrap().replace("\r\n", "\n");

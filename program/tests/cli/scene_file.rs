@@ -76,11 +76,11 @@ fn meshes_are_drawn_as_triangles_where_that_is_asked_for() {
 #[test]
 fn the_examples_load() {
     let folder = Folder::new();
-    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/hybrid.toml");
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/hybrid.toml");
     let run = drawn(&folder, &["render", example]);
     let said = run.stderr.lines().next().unwrap_or_default();
     assert!(said.starts_with("built-in sphere: ") && said.contains(" of the splats"), "{said}");
-    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/spheres.toml");
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/spheres.toml");
     let run = drawn(&folder, &["render", example]);
     let expected = "27 × built-in sphere: 20000 disks, closed; transparent, alpha 0.5";
     assert_eq!(run.stderr.lines().filter(|line| *line == expected).count(), 1, "{}", run.stderr);

@@ -47,7 +47,7 @@ fn every_target_of_the_fuzzer_has_seeds() {
     let packed = [("a.gz", gzip(rows)), ("a.zst", zstd(rows)), ("a.surfel", hierarchy(&nowhere))];
     seeds.extend(packed);
     let [copc, potree] = octrees();
-    let scene = include_bytes!("../../../examples/spheres.toml").to_vec();
+    let scene = include_bytes!("../../../../examples/spheres.toml").to_vec();
     seeds.extend([("a.toml", scene), ("a.mtl", MATERIALS.to_vec())]);
     seeds.extend([("copc.octree", copc), ("potree.octree", potree)]);
     for (name, bytes) in &seeds {
@@ -55,8 +55,7 @@ fn every_target_of_the_fuzzer_has_seeds() {
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join(name), bytes).unwrap();
     }
-    // The package is shipped without them.
-    if let Ok(targets) = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/fuzz_targets")) {
+    if let Ok(targets) = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/fuzz_targets")) {
         let targets: BTreeSet<_> = targets.map(|entry| entry.unwrap().path()).collect();
         let names: BTreeSet<_> =
             targets.iter().map(|path| path.file_stem().unwrap().to_str().unwrap()).collect();

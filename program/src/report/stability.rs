@@ -1,6 +1,6 @@
 //! The tables of numerical stability. A test measures and writes them (`tests/gpu/stability`); here they are shown.
 
-use surfel::{Result, report::Grid};
+use surfel::{Result, report::Grid, selftest::STABILITY_TABLES};
 
 use super::{
     part::{Block, Part},
@@ -10,7 +10,7 @@ use crate::json::to_value;
 
 /// The tables, as the test has written them.
 fn grids() -> Vec<Grid> {
-    serde_json::from_str(include_str!("../../../../tests/gpu/stability/tables.json")).unwrap_or_default()
+    serde_json::from_str(STABILITY_TABLES).unwrap_or_default()
 }
 
 /// The columns in words.
@@ -73,7 +73,7 @@ mod tests {
             "{}",
             finding(&grids)
         );
-        let page = include_str!("../../../../tests/gpu/stability/README.md");
+        let page = include_str!("../../../tests/gpu/stability/README.md");
         assert!(page.contains("lavapipe's (llvmpipe, Mesa 22.3.6)"));
         assert!(grids.iter().all(|grid| page.contains(&grid.markdown())));
     }

@@ -17,7 +17,7 @@ mod growth;
 mod hard_files;
 mod hierarchies;
 mod inputs;
-#[path = "../common/octree_files.rs"]
+#[path = "../../../tests/common/octree_files.rs"]
 mod octree_files;
 mod octrees;
 mod orthographic;
