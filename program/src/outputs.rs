@@ -120,6 +120,12 @@ pub fn check_places<'a>(
     Ok(())
 }
 
+/// Files, and those that scene files among them name.
+pub fn with_models(files: &[PathBuf]) -> Vec<PathBuf> {
+    let models = files.iter().filter(|file| is_scene_file(file)).flat_map(|file| models_of(file));
+    files.iter().cloned().chain(models).collect()
+}
+
 /// The files that a scene file names. What is wrong with it is told when it is loaded.
 fn models_of(scene_file: &Path) -> Vec<PathBuf> {
     let options = LoadOptions { allow_outside: true, ..LoadOptions::default() };

@@ -10,7 +10,7 @@ use surfel::{
 use super::{
     edits::Edits,
     keys::{self, Action, Comparing},
-    values,
+    panel, values,
     viewer::Viewer,
 };
 
@@ -52,10 +52,14 @@ impl Viewer {
             Action::Home | Action::Fit | Action::See(_) | Action::Turns | Action::NextUp => {
                 let seen = self.document.as_ref().map(|document| document.ball_of_seen(&self.edits));
                 let (Some(navigation), Some(seen)) = (&mut self.navigation, seen) else { return Ok(()) };
+                let beside_panel_px = match self.ui.shows_times() {
+                    true => panel::beside_px(window_px[0], self.ui.px_a_point),
+                    false => window_px[0],
+                };
                 match action {
                     Action::Home => navigation.go_home(),
-                    Action::Fit => navigation.fit(&seen, window_px),
-                    Action::See(view) => navigation.see_from(view, &seen, window_px),
+                    Action::Fit => navigation.fit(&seen, window_px, beside_panel_px),
+                    Action::See(view) => navigation.see_from(view, &seen, window_px, beside_panel_px),
                     Action::NextUp => self.ui.tell(&format!("{} is up", navigation.next_axis())),
                     _ => navigation.is_free = !navigation.is_free,
                 }

@@ -175,6 +175,7 @@ impl Viewer {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::outputs::with_models;
 
     #[test]
     fn a_file_is_read_again_once_it_has_changed_and_rests() {
@@ -210,6 +211,18 @@ mod tests {
         assert_eq!([look(&mut files), look(&mut files)], [nothing, (false, gone.to_owned())]);
         std::fs::rename(&away, &path).unwrap();
         assert_eq!(look(&mut files), (false, "a.ply is there again".to_owned()));
+    }
+
+    #[test]
+    fn what_a_scene_file_names_is_watched_with_it() {
+        let folder = temp_dir::TempDir::new().unwrap();
+        let [scene, model] = ["a.toml", "a.ply"].map(|name| folder.path().join(name));
+        std::fs::write(&scene, "[[object]]\nfile = \"a.ply\"\n").unwrap();
+        std::fs::write(&model, "one").unwrap();
+        let mut files = Files::default();
+        files.watch(&with_models(&[scene]));
+        std::fs::write(&model, "longer").unwrap();
+        assert_eq!(files.look().lines, ["a.ply has changed and is read again"]);
     }
 
     #[test]

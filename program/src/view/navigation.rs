@@ -114,16 +114,16 @@ impl Navigation {
         self.axis = self.camera.usable_up().normalize_or(DVec3::Y);
     }
 
-    /// Shows all within a ball from the same side.
-    pub fn fit(&mut self, ball: &Ball, window_px: [u32; 2]) {
+    /// Shows all within a ball from the same side, on the left of the window up to `width_px`.
+    pub fn fit(&mut self, ball: &Ball, window_px: [u32; 2], width_px: u32) {
         let [_, _, forward] = self.axes();
-        self.look_from(-forward, self.camera.up, ball, window_px);
+        self.look_from(-forward, self.camera.up, ball, window_px, width_px);
     }
 
-    /// Shows all within a ball from a side.
-    pub fn see_from(&mut self, view: View, ball: &Ball, window_px: [u32; 2]) {
+    /// Shows all within a ball from a side, in the same place.
+    pub fn see_from(&mut self, view: View, ball: &Ball, window_px: [u32; 2], width_px: u32) {
         let [toward, up] = toward_eye(Some(self.axis), view.angles_rad());
-        self.look_from(toward, up, ball, window_px);
+        self.look_from(toward, up, ball, window_px, width_px);
     }
 
     /// Another direction is up; the eye stays.
@@ -169,14 +169,21 @@ impl Navigation {
         self.camera.eye + forward * depth + (right * dx - up * dy) * unit
     }
 
-    fn look_from(&mut self, toward_eye: DVec3, up: DVec3, ball: &Ball, window_px: [u32; 2]) {
-        let fit = Camera::fit(ball, window_px, self.camera.fov_y_rad);
+    fn look_from(&mut self, toward_eye: DVec3, up: DVec3, ball: &Ball, window_px: [u32; 2], width_px: u32) {
+        let seen_px = [width_px, window_px[1]];
+        let fit = Camera::fit(ball, seen_px, self.camera.fov_y_rad);
         let distance = fit.eye.distance(fit.target);
-        let height = self.camera.orthographic_height.map(|_| Camera::height_of(ball, window_px));
+        let height = self.camera.orthographic_height.map(|_| Camera::height_of(ball, seen_px));
         self.camera.orthographic_height = height;
         self.camera.target = fit.target;
         (self.camera.eye, self.camera.up) = (fit.target + toward_eye * distance, up);
         self.pivot = None;
+        if width_px < window_px[0] {
+            let [right, ..] = self.axes();
+            let beside_px = 0.5 * f64::from(window_px[0] - width_px);
+            self.shift(right * (beside_px * self.unit_a_px(distance, window_px)));
+            self.pivot = Some(fit.target);
+        }
     }
 
     fn shift(&mut self, by: DVec3) {

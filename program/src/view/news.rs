@@ -16,6 +16,7 @@ use super::{
     told::News,
     viewer::Viewer,
 };
+use crate::outputs::with_models;
 
 impl Viewer {
     /// News of the thread that reads files.
@@ -103,7 +104,7 @@ impl Viewer {
         let names: Vec<_> = document.inputs.iter().map(|input| input.name.as_str()).collect();
         self.window.set_title(&format!("{} - surfel (? shows the keys)", names.join(", ")));
         self.ui.reading = None;
-        self.files.watch(&document.files.files);
+        self.files.watch(&with_models(&document.files.files));
         self.document = Some(document);
         let is_other = !std::mem::take(&mut self.keeps_camera);
         // Pages of what the file was.

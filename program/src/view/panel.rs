@@ -30,6 +30,12 @@ const LIST_WIDTH: f32 = 180.0;
 /// Columns of the passes and their times.
 const COLUMNS: [f32; 3] = [160.0, 72.0, 60.0];
 
+/// How much of a window's width the panel leaves; all of it where that is less than a half.
+pub fn beside_px(window_px: u32, px_a_point: f32) -> u32 {
+    let panel_px = (WIDTH * px_a_point).ceil() as u32;
+    if window_px / 2 > panel_px { window_px - panel_px } else { window_px }
+}
+
 /// The panel.
 pub fn show(context: &Context, state: &State, history: &History, changes: &mut Vec<Change>) {
     egui::SidePanel::right("panel").exact_width(WIDTH).resizable(false).show(context, |ui| {

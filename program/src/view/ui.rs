@@ -30,7 +30,7 @@ const MOST_MESSAGES: usize = 6;
 /// What lies over the picture.
 pub struct Ui {
     context: egui::Context,
-    px_a_point: f32,
+    pub(super) px_a_point: f32,
     events: Vec<Event>,
     pointer: Pos2,
     /// A button was pressed over it, and is not released yet.

@@ -97,10 +97,10 @@ fn a_turntable_keeps_its_axis_upright_and_stops_at_the_poles() {
 fn presets_are_sides_of_the_scene_whatever_is_up() {
     let mut navigation = start();
     let direction = |n: &Navigation| (n.camera.eye - n.camera.target).normalize();
-    navigation.see_from(View::Right, &start().ball, WINDOW_PX);
+    navigation.see_from(View::Right, &start().ball, WINDOW_PX, WINDOW_PX[0]);
     assert!(direction(&navigation).distance(DVec3::X) < 1e-12);
     navigation.set_axis(DVec3::Z);
-    navigation.see_from(View::Top, &start().ball, WINDOW_PX);
+    navigation.see_from(View::Top, &start().ball, WINDOW_PX, WINDOW_PX[0]);
     assert!(direction(&navigation).distance(DVec3::Z) < 1e-12);
     // From the pole, too, a turntable goes on.
     let right = navigation.axes()[0];
@@ -114,7 +114,7 @@ fn presets_are_sides_of_the_scene_whatever_is_up() {
 #[test]
 fn each_axis_is_up_in_its_turn_but_those_that_the_camera_looks_along() {
     let mut navigation = start();
-    navigation.see_from(View::Front, &start().ball, WINDOW_PX);
+    navigation.see_from(View::Front, &start().ball, WINDOW_PX, WINDOW_PX[0]);
     let names: Vec<_> = (0..5).map(|_| navigation.next_axis()).collect();
     assert_eq!(names, ["-x", "-y", "x", "y", "-x"]);
     assert_eq!(navigation.camera.up, DVec3::NEG_X);
@@ -132,6 +132,25 @@ fn projections_show_the_target_alike_and_come_back() {
     assert!(navigation.camera.orthographic_height.is_none());
 }
 
+/// As where a panel hides the right of the window.
+#[test]
+fn what_fits_the_left_of_a_window_is_in_its_middle_and_within_it() {
+    for parallel in [false, true] {
+        let mut navigation = start();
+        if parallel {
+            navigation.toggle_projection();
+        }
+        let (ball, width_px) = (navigation.ball, 250);
+        navigation.fit(&ball, WINDOW_PX, width_px);
+        assert_near(place_px(&navigation, ball.center), [125.0, 150.0]);
+        let rim = ball.center + ball.radius * navigation.axes()[0];
+        assert!((200.0..250.0).contains(&place_px(&navigation, rim)[0]));
+        // It turns about the ball.
+        navigation.orbit([30.0, 10.0], WINDOW_PX);
+        assert_near(place_px(&navigation, ball.center), [125.0, 150.0]);
+    }
+}
+
 #[test]
 fn no_zoom_and_no_flight_ends_in_a_camera_without_a_picture() {
     for parallel in [false, true] {
@@ -146,7 +165,7 @@ fn no_zoom_and_no_flight_ends_in_a_camera_without_a_picture() {
                 navigation.camera.validate().unwrap();
             }
         }
-        navigation.fit(&start().ball, WINDOW_PX);
+        navigation.fit(&start().ball, WINDOW_PX, WINDOW_PX[0]);
         assert!((navigation.camera.target - navigation.ball.center).length() < 1e-12);
     }
 }
