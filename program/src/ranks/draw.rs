@@ -24,6 +24,7 @@ use crate::{
     pictures,
     render::{self, RenderArguments},
     scene::{Loaded, upload},
+    unused,
 };
 
 /// What this process has of a picture.
@@ -108,6 +109,9 @@ fn read(
 ) -> Result<Part> {
     let (picture, bars) = (&arguments.picture, Bars::new());
     let mut loaded = load_scene_with_hierarchies(&picture.input.inputs(), &bars)?;
+    if ranks.is_first() {
+        unused::tell(picture.said().chain(arguments.storage.said()), &picture.input.inputs(), &loaded);
+    }
     picture.light(&mut loaded.scene);
     // One method for all, by which levels are drawn, whatever a process happens to have of them.
     let mut settings = Settings { edges: Edges::Hard, ..drawn.settings.clone() };

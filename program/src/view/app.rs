@@ -101,6 +101,7 @@ impl<'a> App<'a> {
             lights: self.arguments.lights.clone(),
             storage: self.arguments.storage.over(Storage::default()),
             budget: self.settings.budget != Budget::Unlimited,
+            said: self.arguments.settings.said().chain(self.arguments.storage.said()).collect(),
         };
         let loader = Loader::new(self.proxy.clone(), limits, wants);
         loader.open(self.arguments.input.inputs(), gpu.window_px());

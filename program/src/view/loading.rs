@@ -26,7 +26,7 @@ use super::{
 };
 use crate::{
     camera::CameraChoice, console::Bars, hierarchies::load_scene_with_hierarchies, inputs::Inputs,
-    scene::Loaded,
+    scene::Loaded, unused,
 };
 
 /// A part of a scene is shown first where it has more splats.
@@ -71,6 +71,8 @@ pub struct Wants {
     pub storage: Storage,
     /// Frames have a budget of splats, of which all have to be known.
     pub budget: bool,
+    /// Names of the options that the user gave.
+    pub said: Vec<&'static str>,
 }
 
 impl Loader {
@@ -171,7 +173,8 @@ impl Worker {
 
     fn open(&self, files: Inputs, size_px: [u32; 2]) -> Result<Document> {
         let mut loaded = load_scene_with_hierarchies(&files, &self.bars)?;
-        let Wants { camera, lights, storage, budget } = &self.wants;
+        let Wants { camera, lights, storage, budget, said } = &self.wants;
+        unused::tell(said.iter().copied(), &files, &loaded);
         let camera = camera.camera(&loaded, size_px)?;
         let in_pages = *storage == Storage::default() && !budget;
         let paged = match &loaded.hierarchies[..] {

@@ -26,9 +26,11 @@ fn polygons_at_rest_have_the_samples_that_render_takes() {
     let (screen, folder) = (Screen::new(), Folder::new());
     cube(&folder, "a.obj");
     folder.splats("a.ply", 400);
-    for (file, others) in
-        [("a.obj", &[][..]), ("a.obj", &["--tonemap", "agx"]), ("a.ply", &["--samples", "4"])]
-    {
+    for (file, others) in [
+        ("a.obj", &[][..]),
+        ("a.obj", &["--tonemap", "agx", "--cull", "list"]),
+        ("a.ply", &["--samples", "4"]),
+    ] {
         let words = [&[file, "--size", "320x240"], &CAMERA[..], others].concat();
         let (whole, one) =
             (render(&folder, &words), render(&folder, &[&words[..9], &["--samples", "1"]].concat()));
@@ -42,7 +44,9 @@ fn polygons_at_rest_have_the_samples_that_render_takes() {
         view.wait_for(&render(&folder, &words));
         screen.key("h");
         view.wait_for(&whole);
-        view.end();
+        // What triangles ignore is told.
+        let told = view.end().stderr.contains("--cull has no effect: this scene is drawn as triangles");
+        assert_eq!(told, others.contains(&"--cull"));
     }
 }
 
