@@ -10,7 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let count: u32 = arguments.next().map_or(Ok(24), |count| count.parse())?;
     let pattern = arguments.next().unwrap_or_else(|| "turn%04d.png".to_owned());
-    let scene = Scene { objects: vec![builtin::relief(50_000)], ..Scene::default() };
+    let scene = Scene::from(builtin::relief(50_000));
     let settings = Settings { size_px: [512, 512], shading: Shading::Phong, ..Settings::default() };
     let first =
         Camera::fit(&scene.ball().ok_or("nothing to see")?, settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
@@ -20,10 +20,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for number in 0..count {
         let turn = DQuat::from_rotation_y(std::f64::consts::TAU * f64::from(number) / f64::from(count));
         let camera = Camera { eye: first.target + turn * (first.eye - first.target), ..first };
-        let frame =
-            headless.render(&prepared, &camera, &settings, Wanted { picture: true, ..Wanted::default() })?;
-        let file = pattern.replace("%04d", &format!("{number:04}"));
-        surfel::save::png(file.as_ref(), settings.size_px, 4, frame.srgb.as_flattened())?;
+        let frame = headless.render(&prepared, &camera, &settings, Wanted::PICTURE)?;
+        frame.save_png(pattern.replace("%04d", &format!("{number:04}")))?;
     }
     println!("{count} pictures, {pattern}");
     Ok(())

@@ -22,8 +22,7 @@
 //! let options = HeadlessOptions { validation: Validation::Off, device: None, cache_folder: None };
 //! let mut headless = Headless::new(&options)?;
 //! let prepared = headless.prepare(&scene, &|_done, _total| {})?;
-//! let wanted = Wanted { picture: true, ..Wanted::default() };
-//! let frame = headless.render(&prepared, &camera, &settings, wanted)?;
+//! let frame = headless.render(&prepared, &camera, &settings, Wanted::PICTURE)?;
 //! assert_eq!(frame.srgb.len(), 1024 * 1024);
 //! # Ok(())
 //! # }

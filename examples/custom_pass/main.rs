@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let color_formats = vec![COLOR_FORMAT, ids, motion];
     let rendering = Rendering { color_formats, ids: true, motion: true, ..Rendering::default() };
     let mut view = View::new(&renderer, &rendering)?;
-    let scene = Scene { objects: vec![surfel::load::builtin::sphere(40_000)], ..Scene::default() };
+    let scene = Scene::from(surfel::load::builtin::sphere(40_000));
     let fog_and_lines = Screen::new(&engine, FOG_AND_LINES);
 
     engine.begin();

@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let renderer = Renderer::new(&device, None)?;
     let rendering = Rendering { color_formats: vec![COLOR_FORMAT], ..Rendering::default() };
     let mut view = View::new(&renderer, &rendering)?;
-    let scene = Scene { objects: vec![surfel::load::builtin::sphere(40_000)], ..Scene::default() };
+    let scene = Scene::from(surfel::load::builtin::sphere(40_000));
 
     engine.begin();
     // SAFETY: recording; submitted below.

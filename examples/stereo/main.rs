@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rendering =
         Rendering { color_formats: vec![COLOR_FORMAT], compare: vk::CompareOp::LESS, ..Rendering::default() };
     let mut views = [View::new(&renderer, &rendering)?, View::new(&renderer, &rendering)?];
-    let scene = Scene { objects: vec![surfel::load::builtin::relief(40_000)], ..Scene::default() };
+    let scene = Scene::from(surfel::load::builtin::relief(40_000));
 
     engine.begin();
     // SAFETY: recording; submitted below.

@@ -67,7 +67,7 @@ impl Part {
         bars.clear();
         let (splats, report) = made?;
         let object = Object { name: self.name.clone(), splats, closed: report.closed };
-        Ok((Scene { objects: vec![object], ..Scene::default() }, report))
+        Ok((Scene::from(object), report))
     }
 }
 
@@ -86,14 +86,13 @@ pub fn camera_covering(
     let distance = fit.eye.distance(fit.target);
     let all = Camera { eye: fit.target + distance * TOWARD_EYE.normalize(), up: DVec3::Z, ..fit };
     let settings = Settings { background: None, ..settings.clone() };
-    let wanted = Wanted { picture: true, ..Wanted::default() };
     let (mut least, mut most) = (0.02_f64, 8.0_f64);
     let mut found = (all, 0.0);
     for _ in 0..TRIES {
         let factor = (least * most).sqrt();
         let half_rad = (factor * (0.5 * all.fov_y_rad).tan()).atan();
         let camera = Camera { fov_y_rad: 2.0 * half_rad, ..all };
-        let frame = headless.render(prepared, &camera, &settings, wanted)?;
+        let frame = headless.render(prepared, &camera, &settings, Wanted::PICTURE)?;
         let covered = frame.srgb.iter().filter(|[.., alpha]| *alpha > 127).count();
         let covers = covered as f64 / frame.srgb.len() as f64;
         found = (camera, covers);

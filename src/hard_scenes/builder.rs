@@ -77,7 +77,7 @@ impl Builder {
 
     /// A scene of that object alone.
     pub fn scene(self, closed: bool) -> Scene {
-        Scene { objects: vec![self.object(closed)], ..Scene::default() }
+        Scene::from(self.object(closed))
     }
 }
 

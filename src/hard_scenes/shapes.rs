@@ -30,7 +30,7 @@ pub fn sphere(count: usize, center: DVec3) -> Object {
 
 /// A closed surface of disks that overlap: the ordinary case.
 pub fn sphere_of_disks() -> Hard {
-    let scene = Scene { objects: vec![sphere(3000, DVec3::ZERO)], ..Scene::default() };
+    let scene = Scene::from(sphere(3000, DVec3::ZERO));
     Hard::seen_from([0.0, 0.0, 3.2], "sphere of disks", scene)
 }
 
@@ -47,7 +47,7 @@ pub fn cut_by_a_box() -> Hard {
 /// The sphere where a step of f32 is half a unit.
 pub fn far_from_the_origin() -> Hard {
     let offset = DVec3::new(500_000.0, 4_600_000.0, 300.0);
-    let scene = Scene { objects: vec![sphere(3000, offset)], ..Scene::default() };
+    let scene = Scene::from(sphere(3000, offset));
     let mut hard = Hard::seen_from([0.0, 0.0, 3.2], "sphere far from the origin", scene);
     hard.camera.eye += offset;
     hard.camera.target += offset;

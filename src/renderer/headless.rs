@@ -66,6 +66,11 @@ pub struct Wanted {
     pub profile: Option<Profile>,
 }
 
+impl Wanted {
+    /// The picture in 8-bit sRGB, and nothing else.
+    pub const PICTURE: Self = Self { picture: true, linear: false, surface: false, profile: None };
+}
+
 /// A frame that is done. Images are row-major, top row first.
 #[derive(Clone, Debug)]
 pub struct Frame {
@@ -91,6 +96,17 @@ pub struct Frame {
     pub record_secs: f64,
     /// What was recorded.
     pub plan: Arc<Plan>,
+}
+
+#[cfg(feature = "files")]
+impl Frame {
+    /// Writes the picture, [`Self::srgb`], as a PNG with straight alpha.
+    ///
+    /// # Errors
+    /// As [`crate::save::png`]; [`crate::ErrorKind::Option`] where no such picture was wanted.
+    pub fn save_png(&self, path: impl AsRef<Path>) -> Result<()> {
+        crate::save::png(path.as_ref(), self.size_px, 4, self.srgb.as_flattened())
+    }
 }
 
 impl Headless {

@@ -3,9 +3,12 @@
 //!
 //! No figure is made up: what was not measured is `None` (`null` in JSON) and a sentence among the flags says why.
 
-#[cfg(feature = "compare")]
+#[cfg(all(feature = "compare", feature = "counts"))]
 pub mod bench;
-#[cfg_attr(not(feature = "compare"), allow(dead_code, reason = "most tables are the program's"))]
+#[cfg_attr(
+    not(all(feature = "compare", feature = "counts")),
+    allow(dead_code, reason = "most tables are the program's")
+)]
 mod cells;
 #[cfg(feature = "compare")]
 pub mod compare;

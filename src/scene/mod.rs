@@ -139,6 +139,13 @@ pub struct Scene {
     pub hybrids: Vec<HybridLevels>,
 }
 
+/// A scene of one object of splats.
+impl From<Object> for Scene {
+    fn from(object: Object) -> Self {
+        Self { objects: vec![object], ..Self::default() }
+    }
+}
+
 impl Scene {
     /// Whether something in it came with its levels of detail.
     pub fn has_levels(&self) -> bool {

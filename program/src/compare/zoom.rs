@@ -32,7 +32,7 @@ pub fn gather(headless: &mut Headless, arguments: &CompareArguments, bars: &Bars
     let base = &arguments.settings();
     let side = arguments.zoom_splats.unwrap_or(600) as usize;
     let tilt_deg = arguments.zoom_tilt.unwrap_or(DEFAULT_TILT_DEG);
-    let board = Scene { objects: vec![checkerboard(side)], ..Scene::default() };
+    let board = Scene::from(checkerboard(side));
     let (methods, skipped) = candidates::split(
         arguments.selection().product(),
         base,
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn only_splats_that_cannot_be_seen_are_left_out() {
-        let board = Scene { objects: vec![checkerboard(100)], ..Scene::default() };
+        let board = Scene::from(checkerboard(100));
         for px in [0.5, 5.0, 50.0] {
             let camera = camera(px, 75.0, [64, 48]);
             let seen = in_view(&board, &camera, [64, 48]);

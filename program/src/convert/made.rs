@@ -47,7 +47,7 @@ pub fn made(arguments: &ConvertArguments, bars: &Bars) -> Result<Made> {
 
 fn with_up(made: Made) -> Made {
     let Made { object, report, up, hint } = made;
-    let mut scene = Scene { objects: vec![object], ..Scene::default() };
+    let mut scene = Scene::from(object);
     let up = up.or_else(|| up_of_shape(&scene).map(|found| found.direction));
     let object = scene.objects.swap_remove(0);
     Made { object, report, up, hint }

@@ -40,7 +40,7 @@ struct Way {
 impl Board {
     /// Draws the board in each way, each pixel enlarged that many times.
     fn panels(&self, context: &mut FigureContext<'_>, enlarge: u32, ways: &[Way]) -> Result<Vec<Panel>> {
-        let scene = context.prepare(&Scene { objects: vec![checkerboard(self.side)], ..Scene::default() })?;
+        let scene = context.prepare(&Scene::from(checkerboard(self.side)))?;
         let size_px = context.size_px.map(|side| (side / enlarge).max(1));
         ways.iter()
             .map(|Way { name, caption, settings }| {

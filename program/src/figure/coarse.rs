@@ -36,7 +36,7 @@ impl CoarseModel {
                 (loaded.scene, what)
             }
             None => {
-                let scene = Scene { objects: vec![relief(FEW_SPLATS)], ..Scene::default() };
+                let scene = Scene::from(relief(FEW_SPLATS));
                 (scene, format!("the built-in relief with {FEW_SPLATS} splats"))
             }
         };

@@ -30,8 +30,7 @@ impl FigureContext<'_> {
 
     /// Draws the picture.
     pub fn picture(&mut self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<Raster> {
-        let wanted = Wanted { picture: true, ..Wanted::default() };
-        let Frame { size_px, srgb, .. } = self.headless.render(scene, camera, settings, wanted)?;
+        let Frame { size_px, srgb, .. } = self.headless.render(scene, camera, settings, Wanted::PICTURE)?;
         Ok(Raster {
             size_px,
             pixels: srgb.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect(),

@@ -83,7 +83,7 @@ fn cut_disk(context: &mut FigureContext<'_>, curve: ClipCurve) -> Result<Raster>
     let dots = ends.into_iter().chain([curve.middle.as_dvec2()]);
     let mut splats = vec![(DVec3::ZERO, circle(1.0), SPLAT, Clip::One(curve))];
     splats.extend(dots.map(|at| (at.extend(1.0), circle(DOT), POINT, Clip::None)));
-    let scene = Scene { objects: vec![object(splats)], ..Scene::default() };
+    let scene = Scene::from(object(splats));
     from_above(context, &scene, (DVec2::ZERO, 2.5))
 }
 

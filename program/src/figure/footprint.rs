@@ -91,7 +91,7 @@ impl RoundSplat {
             Colors::Uniform([1.0; 4]),
         );
         let object = Object { name: "splat".to_owned(), splats, closed: false };
-        let scene = context.prepare(&Scene { objects: vec![object], ..Scene::default() })?;
+        let scene = context.prepare(&Scene::from(object))?;
         // The window with a pixel around it, and as much on the left, where nothing is.
         let half_height = u32::from(window_px) / 2 + 1;
         let center_px = (FOCAL_PX * CENTER.x / CENTER.z).round() as u32;

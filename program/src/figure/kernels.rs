@@ -77,7 +77,7 @@ impl KernelBench {
             fov_y_rad,
             ..Camera::default()
         };
-        Ok(Self { scene: context.prepare(&Scene { objects: vec![object], ..Scene::default() })?, camera })
+        Ok(Self { scene: context.prepare(&Scene::from(object))?, camera })
     }
 
     /// The weights over r, in units in which the disk's rim is at [`SUPPORT`].

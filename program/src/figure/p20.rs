@@ -32,7 +32,7 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
             (loaded.scene, file_name(path))
         }
         None => {
-            let scene = Scene { objects: vec![relief(SPLATS)], ..Scene::default() };
+            let scene = Scene::from(relief(SPLATS));
             (scene, format!("the built-in relief with {SPLATS} splats"))
         }
     };

@@ -28,7 +28,7 @@ const INSIDE: f64 = 0.999;
 
 /// The error of pictures over their samples, with a filter that samples share out, and without.
 pub fn draw(context: &mut FigureContext<'_>) -> Result<Plot> {
-    let scene = Scene { objects: vec![builtin::relief(SPLATS)], ..Scene::default() };
+    let scene = Scene::from(builtin::relief(SPLATS));
     let ball = scene.ball().ok_or_else(|| Error::option("scene", "nothing to see"))?;
     let camera = Camera::fit(&ball, PICTURE_PX, Camera::DEFAULT_FOV_Y_RAD);
     let base = Settings { size_px: PICTURE_PX, background: None, ..Settings::default() };

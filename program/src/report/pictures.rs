@@ -79,8 +79,7 @@ fn picture(
     let arguments: RenderArguments = line.arguments()?;
     let settings = arguments.picture.settings();
     settings.check_scene(&session.loaded.scene)?;
-    let wanted = Wanted { picture: true, ..Wanted::default() };
-    let frame = session.headless.render(scene, session.camera, &settings, wanted)?;
+    let frame = session.headless.render(scene, session.camera, &settings, Wanted::PICTURE)?;
     let pixels: Vec<[u8; 3]> = frame.srgb.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
     Panel::new(shading, about, "The model", frame.size_px, &pixels)
 }

@@ -60,7 +60,7 @@ pub fn make(source: &Source, splats: u64, bars: &Bars) -> Result<Halves> {
     Ok(Halves {
         model,
         hybrid: both.0,
-        splats: Scene { objects: vec![object], ..Scene::default() },
+        splats: Scene::from(object),
         polygons: Scene { meshes: vec![whole], ..Scene::default() },
         inputs: vec![both.1, report],
     })
