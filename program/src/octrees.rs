@@ -175,7 +175,7 @@ fn report(octree: &PointOctree) -> InputReport {
             colors: octree.has_colors(),
             sizes: false,
             bounds: Some([bounds.min.to_array(), bounds.max.to_array()]),
-            metres_per_unit: None,
+            metres_per_unit: octree.metres_per_unit(),
             up: Some([0.0, 0.0, 1.0]),
         }),
         notes: Vec::new(),

@@ -55,9 +55,11 @@ pub fn of(files: Vec<(DVec3, String)>, bars: &Bars) -> Option<FoundUp> {
         let [first, second] = [*direction, *other].map(word);
         bars.note(&format!("{of}: has {second} up, and {name} {first}, which is taken; --up says otherwise"));
     }
-    let because = match name.to_ascii_lowercase().contains(".stl") {
-        true => format!("{name} has it, as most STL files"),
-        false => format!("{name} says so"),
+    let is_named =
+        |ending: &&&str| name.to_ascii_lowercase().contains(&format!(".{}", ending.to_lowercase()));
+    let because = match ["STL", "PTS"].iter().find(is_named) {
+        Some(kind) => format!("{name} has it, as most {kind} files"),
+        None => format!("{name} says so"),
     };
     Some(FoundUp { direction: *direction, because })
 }

@@ -35,3 +35,6 @@ pub(super) fn parts(
         Parts::of_splats(object, told)
     }))
 }
+
+#[cfg(all(test, feature = "e57"))]
+mod tests;

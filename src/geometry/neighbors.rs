@@ -103,16 +103,26 @@ impl Tree {
         reach: f64,
         wanted: &dyn Fn(DVec3) -> bool,
     ) -> Option<Nearest> {
-        let mut best = Nearest { distance: reach * reach, position: DVec3::NAN, number: 0 };
-        self.search(0..self.points.len(), target, best.distance, &mut |place, squared| {
-            let Point { position, number } = self.points[place];
-            if squared < best.distance && wanted(position) {
-                best = Nearest { distance: squared, position, number };
+        let place = self.nearest_place_of(target, reach, wanted)?;
+        let Point { position, number } = self.points[place];
+        Some(Nearest { distance: target.distance(position), position, number })
+    }
+
+    /// The place of that point.
+    pub(super) fn nearest_place_of(
+        &self,
+        target: DVec3,
+        reach: f64,
+        wanted: &dyn Fn(DVec3) -> bool,
+    ) -> Option<usize> {
+        let (mut least, mut best) = (reach * reach, None);
+        self.search(0..self.points.len(), target, least, &mut |place, squared| {
+            if squared < least && wanted(self.points[place].position) {
+                (least, best) = (squared, Some(place));
             }
-            best.distance
+            least
         });
-        let found = !best.position.is_nan();
-        found.then(|| Nearest { distance: best.distance.sqrt(), ..best })
+        best
     }
 
     /// Hands each point that is less than `reach` away from a place to `take`, with its distance.

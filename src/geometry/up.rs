@@ -10,7 +10,10 @@
 //! 3. **Something on the ground**: a floor at the bottom along the axis, level within 20°, below 60% of the box's area, 10% of all area or
 //!    more; what stands on it covers less than half of that in its upper half and less than a quarter of the rim, and 15% of all area is
 //!    within 20° of upright. A medal has the floor, but no walls; a room has walls at the rim, and so has a stage that is seen from the
-//!    front, whose back is no floor.
+//!    front, whose back is no floor. A street has them, too: it is 4 times as long as high, and 1½ times as wide.
+//! 4. **A thing that stands** ([`stands`]): on a base, on legs or on its open lower edge, and on no other side; only if none of the above holds.
+
+mod stands;
 
 use glam::{DVec3, Vec3};
 
@@ -43,7 +46,7 @@ struct Piece {
 
 impl Piece {
     /// Turned about x, so that what was along y is along z.
-    fn with_y_as_z(self) -> Self {
+    fn with_y_as_z(&self) -> Self {
         let DVec3 { x, y, z } = self.place;
         let place = DVec3::new(x, -z, y);
         Self { place, upright: self.upright_in_y, upright_in_y: self.upright, area: self.area }
@@ -57,8 +60,13 @@ pub fn up_of_shape(scene: &Scene) -> Option<FoundUp> {
     }
     let pieces = open_pieces(scene)?;
     let along_z = shape_of(&pieces);
-    let turned: Vec<Piece> = pieces.into_iter().map(Piece::with_y_as_z).collect();
-    let (direction, because) = match (along_z, shape_of(&turned)) {
+    let turned: Vec<Piece> = pieces.iter().map(Piece::with_y_as_z).collect();
+    let standing = |pieces: &[Piece]| stands::stands(pieces).then_some("it stands on what is lowest");
+    let told = match (along_z, shape_of(&turned)) {
+        (None, None) => (standing(&pieces), standing(&turned)),
+        told => told,
+    };
+    let (direction, because) = match told {
         (Some(because), None) => (DVec3::Z, because),
         (None, Some(because)) => (DVec3::Y, because),
         _ => return None,
@@ -146,9 +154,11 @@ fn stands_on_ground(pieces: &[Piece], bounds: &Bounds) -> bool {
     let is_rim = |cell: &usize| [cell / CELLS, cell % CELLS].iter().any(|at| *at == 0 || *at == CELLS - 1);
     let rim: Vec<bool> =
         above.iter().enumerate().filter(|(cell, _)| is_rim(cell)).map(|(_, cell)| *cell).collect();
+    let [narrow, wide] = [extent.x.min(extent.y), extent.x.max(extent.y)];
+    let is_street = wide >= 4.0 * extent.z && narrow >= 1.5 * extent.z;
     10 * covered(&floor) >= 6 * floor.len()
         && 2 * covered(&above) < covered(&floor)
-        && 4 * covered(&rim) < rim.len()
+        && (4 * covered(&rim) < rim.len() || is_street)
         && share(pieces, is_floor) >= 0.1
         && share(pieces, |piece| piece.upright < UPRIGHT) >= 0.15
 }

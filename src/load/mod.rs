@@ -40,6 +40,7 @@ mod stl;
 #[cfg(test)]
 mod tests;
 mod text;
+mod units;
 
 use std::path::Path;
 
@@ -140,6 +141,7 @@ fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress)
         }
     }?;
     refuse_nothing(&input, &loaded)?;
+    loaded.metres_per_unit = loaded.metres_per_unit.or_else(|| units::told(format, bytes));
     if format != sniff::Format::Rows {
         loaded.notes.extend(options.columns_unused());
     }

@@ -106,15 +106,16 @@ impl CameraParts {
     }
 
     /// These parts with an eye, if nothing is said of its height, that sees from above what lies on the ground of a scene of an extent along x,
-    /// y and z: by 30° what is at most half as high as wide. What stands, as high as wide or higher, it sees from the front, and what is
-    /// between by an angle in between.
+    /// y and z: by 38° what is at most a quarter as high as wide, as terrain is, and by 30° what is half as high. What stands, as high as wide or
+    /// higher, it sees from the front, and what is between by an angle in between.
     #[must_use]
     pub fn from_above(self, extent: DVec3) -> Self {
         let up = self.up.and_then(DVec3::try_normalize).unwrap_or(DVec3::Y).abs();
         let height = extent.dot(up);
         let width = (extent - height * up).max_element();
         let lies = (2.0 * (1.0 - height / width)).clamp(0.0, 1.0);
-        let raised_rad = (lies > 0.0).then_some(lies * RAISED_RAD);
+        let is_flat = (4.0 * (0.5 - height / width)).clamp(0.0, 1.0);
+        let raised_rad = (lies > 0.0).then_some(lies * RAISED_RAD + is_flat * FLAT_RAD);
         Self { elevation_rad: self.elevation_rad.or(raised_rad), ..self }
     }
 
@@ -151,6 +152,9 @@ impl CameraParts {
 
 /// 30°.
 const RAISED_RAD: f64 = std::f64::consts::FRAC_PI_6;
+
+/// 8°: the less there is to hide what is behind it, the more of the ground is seen.
+const FLAT_RAD: f64 = 2.0 * std::f64::consts::PI / 45.0;
 
 /// 30° and 20°: two sides and the top are seen, and the front most.
 const CORNER_RAD: [f64; 2] = [std::f64::consts::FRAC_PI_6, std::f64::consts::PI / 9.0];
@@ -192,9 +196,16 @@ mod tests {
             CameraParts { up: Some(DVec3::new(1.0, 1.0, 0.0)), ..none }.camera(&ball, [8, 8]).unwrap();
         assert_eq!(rolled.eye, fit.eye);
         // What lies on the ground, from above.
-        for (height, degrees) in
-            [(0.0, 30.0), (2.0, 30.0), (3.0, 15.0), (4.0, 0.0), (9.0, 0.0), (f64::NAN, 0.0)]
-        {
+        for (height, degrees) in [
+            (0.0, 38.0),
+            (1.0, 38.0),
+            (1.5, 34.0),
+            (2.0, 30.0),
+            (3.0, 15.0),
+            (4.0, 0.0),
+            (9.0, 0.0),
+            (f64::NAN, 0.0),
+        ] {
             let parts = CameraParts { up: Some(DVec3::Z), ..none }.from_above(DVec3::new(4.0, 2.0, height));
             let found = parts.camera(&ball, [8, 8]).unwrap();
             let toward = (found.eye - found.target).normalize();
@@ -204,7 +215,7 @@ mod tests {
         let lies = DVec3::new(4.0, 1.0, 1.0);
         assert_eq!(
             (none.from_above(lies).elevation_rad, none.from_above(DVec3::ONE)),
-            (Some(RAISED_RAD), none)
+            (Some(RAISED_RAD + FLAT_RAD), none)
         );
         assert_eq!(only_eye.from_above(lies).camera(&ball, [8, 8]).unwrap().eye, DVec3::ONE);
         // From a corner, if nothing is said of it.

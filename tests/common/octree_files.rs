@@ -31,6 +31,8 @@ pub struct Octree {
     /// Cells of the root along its side: each node has a point a cell at most.
     pub cells: i32,
     pub nodes: BTreeMap<Key, Vec<CloudPoint>>,
+    /// What COPC says of its coordinates, as well-known text.
+    pub text: &'static str,
 }
 
 impl Octree {
@@ -58,7 +60,7 @@ impl Octree {
                 nodes.entry(key).or_default();
             }
         }
-        Self { min, side, cells, nodes }
+        Self { min, side, cells, nodes, text: "" }
     }
 
     fn count(&self) -> u64 {
@@ -115,7 +117,8 @@ impl Octree {
             .build();
         let mut laz_record = Vec::new();
         vlr.write_to(&mut laz_record).unwrap();
-        let data_at = 375 + 54 + 160 + 54 + laz_record.len();
+        let text_bytes = if self.text.is_empty() { 0 } else { 54 + self.text.len() };
+        let data_at = 375 + 54 + 160 + 54 + laz_record.len() + text_bytes;
         let (chunks, body) = self.chunks(vlr, data_at);
         let pages_at = data_at + body.len() + 60;
         let pages = self.copc_pages(&chunks, pages_at, page_levels);
@@ -133,6 +136,10 @@ impl Octree {
         file.extend([0; 160 - 56]);
         record_header(&mut file, b"laszip encoded", 22204, laz_record.len() as u16);
         file.extend(laz_record);
+        if text_bytes > 0 {
+            record_header(&mut file, b"LASF_Projection", 2112, self.text.len() as u16);
+            file.extend(self.text.as_bytes());
+        }
         assert_eq!(file.len(), data_at);
         file.extend(body);
         // An extended record: its length has 64 bits.
@@ -198,7 +205,7 @@ impl Octree {
         header.extend([0; 68]);
         header.extend(375_u16.to_le_bytes());
         header.extend((data_at as u32).to_le_bytes());
-        header.extend(2_u32.to_le_bytes());
+        header.extend(if self.text.is_empty() { 2_u32 } else { 3 }.to_le_bytes());
         header.push(0x80 | 7);
         header.extend(36_u16.to_le_bytes());
         header.extend([0; 24]);

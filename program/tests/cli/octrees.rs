@@ -179,6 +179,42 @@ fn what_octrees_hold_is_told_and_all_of_it_converted() {
     }
 }
 
+/// Well-known text of a coordinate system: degrees, or feet.
+const DEGREES: &str =
+    r#"GEOGCS["WGS 84",DATUM["d",SPHEROID["s",6378137,298.2]],UNIT["degree",0.0174532925]]"#;
+const FEET: &str = r#"PROJCS["p",GEOGCS["g",UNIT["degree",0.0174532925]],UNIT["foot",0.3048]]"#;
+
+#[test]
+fn copc_of_degrees_becomes_lengths_and_others_tell_their_unit() {
+    let folder = Folder::new();
+    let feet = Octree { text: FEET, ..Octree::of(&cloud(5000), [0; 3], 1 << 16, 32) };
+    folder.write("feet.copc.laz", feet.copc(3).0);
+    let told = done(&folder, &["info", "feet.copc.laz"]).stdout;
+    assert!(told.contains("unit      0.3048 m") && told.contains("nodes, by "), "{told}");
+    // Steps of a hundred-thousandth of a degree, some 0.8 m and 1.1 m, and of a metre: a wave on a square of 47 km by 67 km.
+    let mut degrees = Octree { text: DEGREES, ..feet }.copc(3).0;
+    for (axis, (scale, offset)) in [(1e-5, 11.0), (1e-5, 46.7), (1.0, 0.0)].into_iter().enumerate() {
+        for (at, number) in [(131, scale), (155, offset)] {
+            degrees[at + 8 * axis..][..8].copy_from_slice(&f64::to_le_bytes(number));
+        }
+    }
+    folder.write("degrees.copc.laz", degrees);
+    let told = done(&folder, &["info", "degrees.copc.laz", "--json"]).stdout;
+    let info: serde_json::Value = serde_json::from_str(&told).unwrap();
+    let bounds = &info["inputs"][0]["model"]["bounds"];
+    let extent = [0, 1].map(|axis| bounds[1][axis].as_f64().unwrap() - bounds[0][axis].as_f64().unwrap());
+    let expected = [0.6 * 76_000.0, 0.6 * 111_170.0];
+    assert!(extent.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 0.01), "{bounds}");
+    assert_eq!(
+        (&info["inputs"][0]["model"]["metres_per_unit"], &info["up"][0][2]),
+        (&1.0.into(), &1.0.into())
+    );
+    let told = done(&folder, &["render", "degrees.copc.laz", "-o", "a.png", "--size", "160x120"]).stderr;
+    assert!(told.contains("5000 longitudes and latitudes, by metres east and north of 11.29"), "{told}");
+    let covered = png(&folder.path("a.png")).pixels.chunks_exact(3).filter(|p| *p != [255; 3]).count();
+    assert!(covered > 2000, "{covered}");
+}
+
 /// `cargo test --release --test cli octrees::figures -- --ignored --nocapture`
 #[test]
 #[ignore = "figures: minutes"]

@@ -8,6 +8,9 @@ use crate::geometry::eigen::{eigen, flat};
 /// 4/5 of its radius.
 pub(super) const FLAT: f64 = 0.2;
 
+/// Width over length below which they are a line.
+pub(super) const LINE: f64 = 0.1;
+
 /// A plane through points, of which one is at 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
@@ -24,6 +27,11 @@ pub(super) struct Plane {
 }
 
 impl Plane {
+    /// Those that were looked at farther away lie on the line, too.
+    pub(super) fn is_line(&self) -> bool {
+        self.along_line && self.width < LINE
+    }
+
     /// Through 0 and the offsets that `part` takes.
     pub(super) fn fit(offsets: &[DVec3], part: impl Fn(DVec3) -> bool) -> Self {
         let (mut sum, mut count) = (DVec3::ZERO, 1.0);

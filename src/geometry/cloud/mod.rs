@@ -1,13 +1,14 @@
 //! Points become splats: normals and radii that the file does not have, from the points nearby.
 //!
-//! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`], or the one of their [`sheets`] that it lies on, or of coarser
-//! [`patches`] where there is [`noise`]; normals are turned to one side ([`orient`]); isolated points are left out ([`outliers`], [`strays`]); disks [`reach`] as far as
+//! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`], or the one of their [`sheets`] that it lies on, or that between scan [`lines`],
+//! or of coarser [`patches`] where there is [`noise`]; normals are turned to one side ([`orient`]); isolated points are left out ([`outliers`], [`strays`]); disks [`reach`] as far as
 //! closes the surface ([`radii`]). All of it is the same whatever the number of threads.
 //!
 //! Splats are round: ellipses take half as much memory again (48 bytes on the device instead of 32), and gain only where points lie much denser along one direction than across.
 
 mod around;
 mod fit;
+mod lines;
 mod merge;
 mod noise;
 mod orient;
@@ -160,7 +161,13 @@ impl Cloud {
                     wider = self.near(place);
                     self.offsets(place, &wider, |_| true, more)
                 });
-                if plane.along_line {
+                if plane.is_line() {
+                    let along = wider.iter().rfind(|at| **at != u32::MAX).map(|at| self.place(*at as usize));
+                    let along = along.map(|at| at - self.place(place)).unwrap_or_default();
+                    if let Some(normal) = self.between_lines(place, along, &mut near) {
+                        return normal;
+                    }
+                } else if plane.along_line {
                     // Joins scan lines.
                     let every = MOST_NEIGHBORS / NEIGHBORS;
                     near[NEIGHBORS / 2..]

@@ -1,13 +1,25 @@
 //! Points that belong to no surface, and disks too large for those around them.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{plane::NEIGHBORS, radii::Radius, strays};
+use super::{
+    fit::{FLAT, LINE, Plane},
+    plane::NEIGHBORS,
+    radii::Radius,
+    strays,
+};
 use crate::geometry::neighbors::Tree;
 
 /// A point is isolated whose neighbors are so many times as far away as its neighbors' neighbors are from them. Where the density
 /// of a scan changes by 1:10 this is √10 at most.
 pub(super) const ISOLATED: f64 = 8.0;
+
+/// A point off the plane of its neighbors is so if they are so many times as far away.
+const LONELY: f64 = 2.5;
+
+/// The share of the distance from its nearest neighbor that it is off that plane.
+const OFF: f64 = 0.5;
 
 /// No disk is larger than so many times the median of its neighbors'; it then gets the median.
 const LARGEST: f32 = 4.0;
@@ -17,16 +29,37 @@ const LARGEST_AT_RIM: f32 = 2.0;
 
 /// Whether each point is isolated, or a stray; `spreads` are mean distances of neighbors.
 pub(super) fn isolated(tree: &Tree, neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<bool> {
-    let mut isolated = far_from_all(neighbors, spreads);
+    let mut isolated = far_from_all(tree, neighbors, spreads);
     strays::mark(tree, neighbors, spreads, &mut isolated);
     isolated
 }
 
-fn far_from_all(neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<bool> {
-    let is_isolated = |(near, &spread): (&[u32; NEIGHBORS], &f64)| {
-        median_below(spread / ISOLATED, near, |j| spreads[j]).is_some()
+fn far_from_all(tree: &Tree, neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<bool> {
+    let is_isolated = |(place, (near, &spread)): (usize, (&[u32; NEIGHBORS], &f64))| {
+        let Some(around) = median_below(spread / LONELY, near, |j| spreads[j]) else { return false };
+        spread > ISOLATED * around || floats(tree, place, near, |j| spreads[j] < LONELY * around, around)
     };
-    neighbors.par_iter().zip(spreads).map(is_isolated).collect()
+    neighbors.par_iter().zip(spreads).enumerate().map(is_isolated).collect()
+}
+
+/// Whether the neighbors of a point, `around` apart, lie in a plane, and it off that: as what a scanner saw half of an edge and half of what is behind, or
+/// of dust.
+fn floats(
+    tree: &Tree,
+    place: usize,
+    near: &[u32; NEIGHBORS],
+    is_dense: impl Fn(usize) -> bool,
+    around: f64,
+) -> bool {
+    let at = |place: usize| tree.points()[place].position;
+    let dense = near.iter().filter(|j| **j != u32::MAX).map(|j| *j as usize).filter(|j| is_dense(*j));
+    let mut others = dense.map(at);
+    let Some(nearest) = others.next() else { return false };
+    let offsets: Vec<DVec3> = others.map(|other| other - nearest).collect();
+    let plane = Plane::fit(&offsets, |_| true);
+    let off = plane.normal.dot(at(place) - nearest - plane.mean).abs();
+    let is_flat = plane.thickness < FLAT && plane.width > LINE;
+    is_flat && off > LONELY * around && off > OFF * at(place).distance(nearest)
 }
 
 /// Radii without those that are far too large.
@@ -76,14 +109,17 @@ fn median_below(limit: f64, near: &[u32; NEIGHBORS], value: impl Fn(usize) -> f6
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::neighbors::Point;
 
     #[test]
     fn a_point_far_from_all_is_isolated_and_its_disk_is_no_plate() {
         let mut near = [u32::MAX; NEIGHBORS];
         near[..3].copy_from_slice(&[0, 1, 2]);
         let all = [near; 4];
-        assert_eq!(far_from_all(&all, &[1.0, 1.0, 1.1, 9.0]), [false, false, false, true]);
+        let point = |number: u32| Point { position: DVec3::splat(f64::from(number)), number };
+        let tree = Tree::new((0..4).map(point).collect());
+        assert_eq!(far_from_all(&tree, &all, &[1.0, 1.0, 1.1, 9.0]), [false, false, false, true]);
         assert_eq!(limit_radii(&all, &[1.0, 1.0, 1.0, 4.5]), vec![1.0; 4]);
-        assert_eq!(far_from_all(&[[u32::MAX; NEIGHBORS]], &[1.0]), [false]);
+        assert_eq!(far_from_all(&tree, &[[u32::MAX; NEIGHBORS]], &[1.0]), [false]);
     }
 }

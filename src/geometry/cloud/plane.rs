@@ -6,12 +6,12 @@
 //! thicker, so that it keeps its few neighbors. Where it
 //! does neither, at edges and between the two sides of a thin plate, the [`sheets`] are looked for among them.
 //!
-//! Neighbors all on a line, as on scan lines that lie far apart, grow, too.
+//! Neighbors all on a line, as on scan lines that lie far apart, grow, too; where that is not enough, `lines` looks for those beside it.
 
 use glam::DVec3;
 
 use super::{
-    fit::{FLAT, Plane},
+    fit::{FLAT, LINE, Plane},
     sheets,
 };
 
@@ -20,9 +20,6 @@ pub(super) const NEIGHBORS: usize = 12;
 
 /// How many make one where those are not flat.
 pub(super) const MOST_NEIGHBORS: usize = 48;
-
-/// Width over length below which they are a line.
-const LINE: f64 = 0.1;
 
 /// How much thicker a wider neighborhood is of a surface that turns fast: the side of a tube, or a ball of few points.
 const THICKER: f64 = 1.7;

@@ -23,8 +23,8 @@ use glam::{DVec3, Vec2, Vec4};
 /// How far corners of a cell may be, in distances of the 6th neighbor.
 const WIDEST_GAP: f64 = 1.5;
 
-/// How far the next scan line may be, in distances of the 6th neighbor, which is 3 points away along a line: 18 times as far as the next point.
-const WIDEST_BETWEEN_LINES: f64 = 6.0;
+/// How far the next scan line may be, in distances of the 6th neighbor, which is 3 points away along a line: 42 times as far as the next point.
+const WIDEST_BETWEEN_LINES: f64 = 14.0;
 
 /// So many nearest neighbors are a line.
 const LINE: usize = 8;

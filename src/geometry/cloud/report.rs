@@ -37,7 +37,7 @@ pub struct CloudReport {
     pub not_finite: usize,
     /// Points at the place of another: merged with it.
     pub duplicates: usize,
-    /// Points whose neighbors are 8 times as far from them as these are from theirs: left out.
+    /// Points whose neighbors are 8 times as far from them as these are from theirs, or 2½ times and in a plane that they are off: left out.
     pub isolated: usize,
     /// The points are so noisy that planes were fitted to 48 neighbors each, of all points or of a part.
     pub noisy: bool,

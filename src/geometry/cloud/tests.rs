@@ -1,5 +1,6 @@
 mod few;
 mod given;
+mod lines;
 mod rims;
 mod surfaces;
 

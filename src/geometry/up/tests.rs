@@ -91,6 +91,43 @@ fn a_house_stands_on_its_ground_and_a_box_on_nothing() {
 }
 
 #[test]
+fn a_street_has_walls_at_its_rim_and_a_stage_is_none() {
+    // A ground of 60 by 20 with a wall of this height along each of its long sides.
+    let street = |height: f64, wide: f64| {
+        let ground = square(60).map(move |(x, y)| (DVec3::new(x, wide / 60.0 * y, 0.0), Vec3::Z));
+        let wall =
+            move |y: f64| square(40).map(move |(x, z)| (DVec3::new(1.5 * x, y, height / 40.0 * z), Vec3::Y));
+        ground.chain(wall(0.0)).chain(wall(wide)).collect::<Vec<_>>()
+    };
+    assert_eq!(because(&scene(false, street(10.0, 20.0).into_iter())).unwrap(), "it stands on a floor");
+    assert_eq!(because_turned(street(10.0, 20.0).into_iter()).unwrap(), "it stands on a floor");
+    assert_eq!(because(&scene(false, street(20.0, 20.0).into_iter())), None, "as high as wide");
+}
+
+#[test]
+fn a_bust_stands_along_z_or_along_y() {
+    // A ball on a plinth.
+    let ball = square(60).map(|(i, j)| {
+        let (longitude, z) = (0.105 * i, (2.0 * j + 1.0) / 60.0 - 1.0);
+        let flat = (1.0 - z * z).sqrt();
+        let normal = DVec3::new(flat * longitude.cos(), flat * longitude.sin(), z);
+        (normal + 1.9 * DVec3::Z, normal.as_vec3())
+    });
+    let base = square(40).flat_map(|(x, y)| {
+        let at = DVec3::new(0.04 * x - 0.8, 0.04 * y - 0.8, 0.0);
+        [
+            (at, Vec3::NEG_Z),
+            (DVec3::new(at.x, 0.8, 0.025 * y), Vec3::Y),
+            (DVec3::new(at.x, -0.8, 0.025 * y), Vec3::NEG_Y),
+        ]
+    });
+    let bust: Vec<_> = ball.chain(base).collect();
+    assert_eq!(because(&scene(false, bust.clone().into_iter())).unwrap(), "it stands on what is lowest");
+    assert_eq!(because_turned(bust.clone().into_iter()).unwrap(), "it stands on what is lowest");
+    assert_eq!(because(&scene(true, bust.into_iter())), None, "a closed thing");
+}
+
+#[test]
 fn a_ball_has_no_up() {
     for closed in [false, true] {
         let mesh = MeshObject { name: String::new(), mesh: sphere(5), closed };

@@ -99,7 +99,7 @@ pub fn convert_splats(
         return Err(Error::input(rows.path(), "", problem));
     }
     let most = most_splats(memory);
-    let facts = Facts { closed: rows.closed(), up: survey.up(rows.closed()) };
+    let facts = Facts { closed: rows.closed(), up: rows.up().or_else(|| survey.up(rows.closed())) };
     let form = survey.form();
     let splats = (rows.count() - survey.defects.total() as u64).max(1);
     // So that what a part has more than the sample says does not make it too large.

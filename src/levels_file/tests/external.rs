@@ -120,3 +120,17 @@ fn defects_are_left_out_or_refused() {
     assert_eq!((written.header.splats, defects.total(), written.parts), (999, 1, 1));
     assert_eq!(loaded(&fs::read(&path).unwrap()).unwrap().object.leaves.len(), 999);
 }
+
+#[test]
+fn the_direction_that_the_file_says_is_up_is_kept() {
+    let folder = temp_dir::TempDir::new().unwrap();
+    let [ply, path] = ["a.ply", "a.surfel"].map(|name| folder.path().join(name));
+    let object = relief(150_000);
+    for up in [DVec3::new(0.6, 0.0, 0.8), DVec3::NEG_Z] {
+        save::splats(&ply, &object.splats, object.closed, Some(up), &()).unwrap();
+        let rows = SplatRows::open(&ply, &LoadOptions::default()).unwrap().unwrap();
+        let (written, _) = convert_splats(rows, &path, LEAST_MEMORY, true, &()).unwrap();
+        assert!(written.parts > 1);
+        assert_eq!(LevelsFile::open(&path).unwrap().header().up, Some(up));
+    }
+}

@@ -53,11 +53,13 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
                 input.step(before + share as usize);
             }
         }
-        viewpoints.extend(viewpoint(cloud).map(|place| Viewpoint { end: scans.positions.len(), place }));
+        viewpoints.push(Viewpoint { end: scans.positions.len(), place: viewpoint(cloud) });
         ignored.extend(unread(cloud).filter(|name| !ignored.contains(name)).collect::<Vec<_>>());
     }
     input.step(input.bytes.len());
-    if viewpoints.len() < clouds.len() {
+    // Where no scan has a pose, all of them may have been put in one place before.
+    if clouds.iter().all(|cloud| cloud.transform.is_none()) || !viewpoints.iter().all(|v| v.place.is_finite())
+    {
         viewpoints.clear();
     }
     let format = match clouds.len() {
@@ -98,10 +100,12 @@ impl Scans {
     }
 }
 
-/// Where the scanner stood: the origin of the scan's own coordinates, if it has any.
-fn viewpoint(cloud: &PointCloud) -> Option<DVec3> {
-    let place = &cloud.transform.as_ref()?.translation;
-    Some(DVec3::new(place.x, place.y, place.z)).filter(|place| place.is_finite())
+/// Where the scanner stood: the origin of the scan's own coordinates. Of scans that others were put beside, it is the file's.
+fn viewpoint(cloud: &PointCloud) -> DVec3 {
+    cloud.transform.as_ref().map_or(DVec3::ZERO, |pose| {
+        let place = &pose.translation;
+        DVec3::new(place.x, place.y, place.z)
+    })
 }
 
 /// Fields of extensions, which may be normals or names of objects.

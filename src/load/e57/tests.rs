@@ -102,7 +102,13 @@ fn scans_are_joined_in_their_poses() {
     let color = points.colors.get(0).unwrap();
     assert!(color.iter().zip([1.0, 0.0, linear_from_srgb(0.2), 1.0]).all(|(a, b)| (a - b).abs() < 1e-6));
     assert_eq!(points.colors.get(2), Some([1.0; 4]));
-    assert_eq!(points.viewpoints, [], "where one scan has no pose");
+    let places = [DVec3::new(500_000.0, 4_600_000.0, 300.0), DVec3::ZERO];
+    let [first, second] = [(2, places[0]), (3, places[1])].map(|(end, place)| Viewpoint { end, place });
+    assert_eq!(
+        points.viewpoints,
+        [first, second],
+        "the second scan is the one that the first was put beside"
+    );
 }
 
 #[test]

@@ -104,6 +104,15 @@ pub(in crate::load) fn read(input: &Input<'_>) -> Result<Header> {
     })
 }
 
+/// What the records say of the coordinates that are within the first bytes of a file.
+pub(in crate::load) fn coordinates(head: &[u8]) -> Coordinates {
+    let size = head.get(94..96).and_then(|size| size.try_into().ok()).map_or(0, u16::from_le_bytes);
+    let data = head.get(96..100).and_then(|data| data.try_into().ok()).map_or(0, u32::from_le_bytes);
+    let end = head.len().min(data as usize);
+    let records = variable_records(head.get(usize::from(size)..end).unwrap_or_default());
+    records.iter().fold(Coordinates::Unknown, Coordinates::or)
+}
+
 /// The first byte that waves or extended records have.
 fn end(raw: &raw::Header, file_bytes: usize) -> usize {
     let extended = raw.evlr.filter(|evlr| evlr.number_of_evlrs > 0).map(|evlr| evlr.start_of_first_evlr);

@@ -20,7 +20,7 @@ use crate::{error::Result, notes::Deed, scene::Points};
 pub(in crate::load) use chunks::Chunk;
 pub(in crate::load) use columns::{Columns, NOISE};
 pub(in crate::load) use coordinates::Coordinates;
-pub(in crate::load) use header::{Header, read as read_header};
+pub(in crate::load) use header::{Header, coordinates, read as read_header};
 pub(in crate::load) use palette::Palette;
 
 /// How many points of an uncompressed file one thread reads at once.

@@ -12,7 +12,7 @@ use crate::{
     error::{Error, Result},
     load::{
         Input, Limits, LoadOptions,
-        las::{Chunk, Columns, Coordinates, Header, read_header},
+        las::{Chunk, Columns, Coordinates, Header, coordinates, read_header},
     },
     scene::Bounds,
 };
@@ -47,6 +47,11 @@ pub(super) fn is_copc(head: &[u8]) -> bool {
     head.starts_with(b"LASF") && record.is_some_and(is_info)
 }
 
+/// Whether the coordinates of a file that begins so are degrees: no cube of them is one.
+pub(super) fn has_degrees(head: &[u8]) -> bool {
+    coordinates(head) == Coordinates::Degrees
+}
+
 fn number(bytes: &[u8], at: usize) -> f64 {
     f64::from_bits(whole(bytes, at))
 }
@@ -69,7 +74,7 @@ pub(super) fn open<R: Read + Seek>(source: &mut Source<R>, options: &LoadOptions
     let input = Input { path: Path::new(&path), folder: None, bytes: &head, options, progress: &() };
     let header = read_header(&input)?;
     if header.coordinates == Coordinates::Degrees {
-        let problem = "longitude and latitude in degrees; expected lengths, so project it first, or convert it to PLY by surfel convert";
+        let problem = "longitude and latitude in degrees; expected lengths, or to be read as a whole";
         return Err(input.fault("header", problem));
     }
     options.limits.check_points(&input, header.points)?;
@@ -128,6 +133,14 @@ fn bounds(head: &[u8]) -> Option<Bounds> {
 impl Form {
     pub fn has_colors(&self) -> bool {
         self.header.format.has_color
+    }
+
+    /// The unit in metres, where the file tells it.
+    pub fn metres_per_unit(&self) -> Option<f64> {
+        match self.header.coordinates {
+            Coordinates::Lengths(metres) => Some(metres),
+            _ => None,
+        }
     }
 
     /// The points of a node, which are a chunk of LAZ.

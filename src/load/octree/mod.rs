@@ -12,14 +12,15 @@ mod copc;
 mod packed_node;
 mod pages;
 mod potree;
+mod probe;
 mod source;
 #[cfg(test)]
 mod tests;
 mod tree;
 
 use std::{
-    fs::{self, File},
-    io::{self, Read, Seek},
+    fs::File,
+    io::{Read, Seek},
     path::{Path, PathBuf},
 };
 
@@ -34,13 +35,12 @@ use crate::{
     progress::Progress,
     scene::{Ball, Bounds},
 };
+use probe::PROBE_BYTES;
 use source::Source;
 use tree::{Entry, Span, Tree};
 
+pub use probe::is_point_octree;
 pub use tree::{LevelOfOctree, NodeKey, OctreeNode};
-
-/// So much of a file tells what it is.
-const PROBE_BYTES: u64 = 1 << 16;
 
 /// Nodes whose bytes are in memory at once, to be decoded beside each other.
 const BATCH: usize = 32;
@@ -64,17 +64,6 @@ pub struct PointOctree<R = File> {
 enum Form {
     Copc(copc::Form),
     Potree(potree::Form),
-}
-
-/// Whether a file is an octree of points, by its first bytes; not what can't be read, nor what is no regular file.
-pub fn is_point_octree(path: &Path) -> bool {
-    let is_file = fs::metadata(path).is_ok_and(|metadata| metadata.is_file());
-    let head = || {
-        let mut head = Vec::new();
-        File::open(path)?.take(PROBE_BYTES).read_to_end(&mut head)?;
-        Ok::<_, io::Error>(head)
-    };
-    is_file && head().is_ok_and(|head| copc::is_copc(&head) || potree::is_metadata(&head))
 }
 
 /// Reads all of a Potree 2 octree, as the reader of any other format.
@@ -170,6 +159,14 @@ impl<R: Read + Seek> PointOctree<R> {
         match &self.form {
             Form::Copc(form) => form.has_colors(),
             Form::Potree(form) => form.has_colors(),
+        }
+    }
+
+    /// How long its unit is in metres, where it tells it.
+    pub fn metres_per_unit(&self) -> Option<f64> {
+        match &self.form {
+            Form::Copc(form) => form.metres_per_unit(),
+            Form::Potree(_) => None,
         }
     }
 
@@ -271,7 +268,9 @@ impl<R: Read + Seek> PointOctree<R> {
             progress.step(&task, (nodes.len().min((number + 1) * BATCH)) as u64, nodes.len() as u64);
         }
         let palette = palette.filter(|_| !self.tree.is_all(nodes.len()));
-        Ok(loaded(columns, palette, &self.words))
+        let mut loaded = loaded(columns, palette, &self.words);
+        loaded.metres_per_unit = self.metres_per_unit();
+        Ok(loaded)
     }
 
     fn read_page(&mut self, root: NodeKey, span: Span) -> Result<()> {

@@ -6,6 +6,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use glam::DVec3;
+
 use super::{
     body::{FixedRows, Table},
     faces::corners,
@@ -32,6 +34,7 @@ pub struct SplatRows {
     start: u64,
     count: u64,
     closed: bool,
+    up: Option<DVec3>,
 }
 
 impl SplatRows {
@@ -60,7 +63,8 @@ impl SplatRows {
                 format!("{count} rows of {} bytes; expected no more than the file holds", rows.stride());
             return Err(Error::input(path, "element vertex", problem));
         }
-        Ok(Some(Self { path: path.to_owned(), file, layout, rows, start, count, closed: header.closed }))
+        let Header { closed, up, .. } = header;
+        Ok(Some(Self { path: path.to_owned(), file, layout, rows, start, count, closed, up }))
     }
 
     /// How many rows there are.
@@ -76,6 +80,11 @@ impl SplatRows {
     /// As [`crate::scene::Object::closed`].
     pub fn closed(&self) -> bool {
         self.closed
+    }
+
+    /// The direction that is up, where the file tells it.
+    pub fn up(&self) -> Option<DVec3> {
+        self.up
     }
 
     /// Where it is.

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use super::stl::is_text;
 use crate::error::{Error, Result};
-use foreign::foreign;
+use foreign::{by_ending, foreign};
 pub(super) use words::without_mark;
 
 /// The formats that are known; not all are read by every build.
@@ -89,7 +89,7 @@ pub(super) fn format(path: &Path, name: &Path, bytes: &[u8]) -> Result<Format> {
     if is_binary_stl(bytes, extension == "stl") {
         return Ok(Format::Stl);
     }
-    if let Some(what) = foreign(bytes) {
+    if let Some(what) = foreign(bytes, &extension) {
         return refuse(&format!("this is {what}"));
     }
     let probe = bytes.get(..PROBE_BYTES).unwrap_or(bytes);
@@ -105,8 +105,9 @@ pub(super) fn format(path: &Path, name: &Path, bytes: &[u8]) -> Result<Format> {
         if extension == "stl" {
             return Ok(Format::Stl);
         }
-        return refuse(&match extension.as_str() {
-            "" => "binary, of an unknown format".to_owned(),
+        return refuse(&match (by_ending(&extension), extension.as_str()) {
+            (Some(what), _) => format!("this is {what}"),
+            (None, "") => "binary, of an unknown format".to_owned(),
             _ => format!("named .{}, but its content is binary of another format", extension.escape_debug()),
         });
     }
@@ -120,7 +121,10 @@ pub(super) fn format(path: &Path, name: &Path, bytes: &[u8]) -> Result<Format> {
         (None, "xyz" | "pts" | "ptx" | "csv" | "txt" | "asc") => Ok(Format::Rows),
         (None, _) if is_json(probe) => refuse("this is JSON, but neither glTF nor the metadata of Potree 2"),
         (None, "ply") => refuse("named .ply, but its first line is not 'ply'"),
-        (None, _) => refuse("text of an unknown format"),
+        (None, ending) => match by_ending(ending) {
+            Some(what) => refuse(&format!("this is {what}")),
+            None => refuse("text of an unknown format"),
+        },
     }
 }
 

@@ -87,6 +87,57 @@ fn what_is_no_model_is_named() {
 }
 
 #[test]
+fn models_and_archives_of_others_say_what_to_do() {
+    let step = "this is a STEP model (save it as STL or OBJ)";
+    let iges = "this is an IGES model (save it as STL or OBJ)";
+    let dxf = "this is a DXF drawing (save it as STL or OBJ)";
+    let usd = "this is a USD scene (save it as glTF or OBJ)";
+    let tar = "this is a tar archive (unpack it first)";
+    let zip = "this is a zip archive (unpack it first)";
+    let gaussians = "this is a viewer's own format of Gaussians (save them as PLY)";
+    let mut of_tar = vec![0_u8; 1024];
+    of_tar[..5].copy_from_slice(b"a.ply");
+    let old_tar = of_tar.clone();
+    of_tar[257..262].copy_from_slice(b"ustar");
+    let of_iges = format!("{:72}S{:>7}\r\n{:72}G{:>7}\r\n", "A part", 1, "1H,,1H;", 1);
+    let of_step = b"ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('a'),'2;1');\n";
+    let marked_step = [b"\xef\xbb\xbf\r\n", &of_step[..]].concat();
+    let cases: [(&str, &[u8], &str); 22] = [
+        ("a", of_step, step),
+        ("a.obj", &marked_step, step),
+        ("a.step", b"something that was cut off", step),
+        ("a.STP", b"\0\x01", step),
+        ("a", of_iges.as_bytes(), iges),
+        ("a.igs", b"a part", iges),
+        ("a.txt", b"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", dxf),
+        ("a.xyz", b"999\nby a program\n999\n1 2 3\n0\nSECTION\n2\nENTITIES\n", dxf),
+        ("a", b"AutoCAD Binary DXF\r\n\x1a\0", dxf),
+        ("a.dxf", b"cut off", dxf),
+        ("a.ply", b"#usda 1.0\n(\n)\n", usd),
+        ("a", b"PXR-USDC\0\0", usd),
+        ("a.usdz", b"PK\x03\x04", usd),
+        ("a.usd", b"\0\0", usd),
+        ("a.las", &of_tar, tar),
+        ("a.tar", &old_tar, tar),
+        ("a.ply", b"PK\x03\x04", zip),
+        ("a.3mf", b"PK\x03\x04", "this is a 3MF model (save it as STL or OBJ)"),
+        ("a.dae", b"<?xml version=\"1.0\"?>\n<COLLADA/>", "this is a COLLADA scene (save it as glTF or OBJ)"),
+        ("a.svg", b"<?xml version=\"1.0\"?>\n<svg/>", "this is an XML file"),
+        ("a.splat", &[1; 64], gaussians),
+        ("a.rcp", &[0; 9], "this is a scanner program's own file (export E57 or LAS of it)"),
+    ];
+    for (name, bytes, found) in cases {
+        let error = load_bytes(name, bytes).err();
+        let expected = format!("/{name}: {found}; expected {}", super::expected());
+        assert_eq!(error.as_deref(), Some(&*expected), "{name}");
+    }
+    // What can be read is, whatever it is called.
+    for name in ["a.dxf", "a.step", "a.tar"] {
+        assert!(matches!(load_bytes(name, TRIANGLE_OBJ), Ok(Model::Mesh(_))), "{name}");
+    }
+}
+
+#[test]
 fn missing_files_and_folders_are_named() {
     let folder = temp_dir::TempDir::new().unwrap();
     let missing = load(&folder.path().join("no.ply"), &LoadOptions::default(), &()).unwrap_err();

@@ -4,7 +4,7 @@ use super::{
     columns::{Column, Columns},
     fields::{Between, Writing},
 };
-use crate::load::lines::shown;
+use crate::load::{lines::shown, units};
 
 /// The most lines of words above the rows: titles, names of columns, their units.
 pub(super) const MOST_TITLES: usize = 8;
@@ -75,18 +75,8 @@ pub(super) fn named(line: &[u8]) -> Found<Vec<Column>> {
 fn metres_of(name: &str) -> Option<f64> {
     let (_, unit) = name.split_once(['[', '('])?;
     let unit = unit.split([']', ')']).next()?.trim_matches(['_', ' ']).to_ascii_lowercase();
-    METRES.iter().find(|(name, _)| *name == unit).map(|(_, metres)| *metres)
+    units::metres(&unit)
 }
-
-const METRES: [(&str, f64); 7] = [
-    ("m", 1.0),
-    ("cm", 0.01),
-    ("mm", 0.001),
-    ("km", 1000.0),
-    ("ft", 0.3048),
-    ("in", 0.0254),
-    ("inch", 0.0254),
-];
 
 /// As [`named`], of a header: blanks may be part of names where something else stands between them.
 pub(super) fn of_header(line: &[u8], writing: Writing) -> Found<Vec<Column>> {

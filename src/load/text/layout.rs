@@ -21,7 +21,7 @@ use super::{
     fields::Writing,
     header::{Found, MOST_TITLES, are_units, header_of, named, names_columns, of_header},
 };
-use crate::load::{Input, lines::shown, sniff::without_mark};
+use crate::load::{Input, lines::shown, sniff::without_mark, units};
 
 /// What a file of rows is made of.
 pub(super) struct Layout {
@@ -58,7 +58,8 @@ pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
     let start = input.bytes.len() - without_mark(input.bytes).len();
     for line in (Lines { bytes: input.bytes, at: start, line_end, most }) {
         let (at, line) = line?;
-        if line.is_empty() {
+        // What names a unit names no columns.
+        if line.is_empty() || units::of_line(line).is_some() {
             continue;
         }
         if let Some(text) = comment_text(line) {

@@ -12,6 +12,8 @@ mod rows;
 mod tests;
 mod thousands;
 
+use glam::DVec3;
+
 use super::{Input, Loaded, Model, geographic::Place, shade};
 use crate::{
     error::Result,
@@ -36,6 +38,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
 
 fn loaded(rows: Rows, layout: &Layout) -> Loaded {
     let longer = rows.longer;
+    let has_shades = !rows.colors.is_empty() || !rows.intensities.is_empty();
     let (colors, what, outside) = match (rows.colors.is_empty(), rows.intensities.is_empty()) {
         (false, _) => {
             let largest = rows.colors.iter().flatten().fold(0.0, |a: f32, b| a.max(*b));
@@ -71,6 +74,8 @@ fn loaded(rows: Rows, layout: &Layout) -> Loaded {
     }
     let mut loaded = Loaded::new(Model::Points(points), format);
     loaded.metres_per_unit = layout.metres_per_unit;
+    // A number of rows above them, and more than places in them: scanners' PTS, which has z up.
+    loaded.up = (layout.counted && has_shades).then_some(DVec3::Z);
     if let Some(place) = place {
         place.tell(&mut loaded, count);
     }

@@ -156,6 +156,8 @@ impl Scans {
             format!("PTX, {count} scan{s}{what}"),
         );
         loaded.up = Some(DVec3::Z);
+        // Leica's description says so.
+        loaded.metres_per_unit = Some(1.0);
         loaded.note(Deed::Dropped, self.nothing_met, "rays that met nothing");
         loaded.note(Deed::Clamped, outside, "points with a color out of its range");
         let unused = if has_colors { 0 } else { self.colors.len() as u64 };

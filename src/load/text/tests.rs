@@ -223,8 +223,12 @@ fn columns_that_are_not_read_may_be_words() {
 
 #[test]
 fn pts_files_count_their_rows_a_scan() {
+    for other in ["2\n1 2 3\n4 5 6\n", "1 2 3 9\n4 5 6 8\n"] {
+        assert_eq!(points(other).1.up, None, "{other}");
+    }
     let (points, loaded) = points("2\n1 2 3 -2048 255 0 0\n4 5 6 2047 0 0 0\n1\n7 8 9 0 0 0 0\n");
     assert_eq!((points.positions.len(), loaded.format.as_str()), (3, "rows of x y z i r g b, colors 0–255"));
+    assert_eq!(loaded.up, Some(DVec3::Z), "as scanners have it");
     refuses("3\n1 2 3\n4 5 6\n", "line 1: 3 rows are said to follow, but 2 do");
     refuses("1\n1 2 3\n2\n4 5 6\n", "line 3: 2 rows are said to follow, but 1 do");
     refuses("-1\n1 2 3\n", "line 1: -1 rows are said to follow, but 1 do");

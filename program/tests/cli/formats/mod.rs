@@ -140,7 +140,7 @@ pub fn meshes_far_away() -> Vec<(&'static str, Vec<u8>)> {
 #[test]
 fn what_lies_is_seen_from_above_and_what_stands_from_the_front() {
     let folder = Folder::new();
-    for (height, degrees) in [(0.25, 30.0), (0.75, 15.0), (1.5, 0.0)] {
+    for (height, degrees) in [(0.1, 38.0), (0.4, 30.0), (0.75, 15.0), (1.5, 0.0)] {
         let scaled = |point: points::Point| points::Point {
             place: point.place * DVec3::new(1.0, 1.0, height),
             ..point

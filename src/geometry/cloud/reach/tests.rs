@@ -75,12 +75,14 @@ fn the_edge_to_another_face_ends_the_cell() {
 
 #[test]
 fn lines_far_apart_join() {
-    for (apart, joins) in [(5.0, true), (12.0, true), (17.0, true), (19.0, false)] {
-        let lines = (-1..2)
-            .flat_map(|line| (-24..25).map(move |i| DVec3::new(f64::from(i), apart * f64::from(line), 0.0)));
-        let mut offsets: Vec<DVec3> = lines.filter(|offset| offset.length() > 0.0).collect();
+    for (apart, joins) in [(5.0, true), (17.0, true), (41.0, true), (43.0, false)] {
+        // Of its own line the 8 nearest, of those beside it two each.
+        let own = (-4..5).map(|i| DVec3::X * f64::from(i)).filter(|offset| offset.length() > 0.0);
+        let beside =
+            [-1.0, 1.0].into_iter().flat_map(|side| [0.0, 1.0].map(|x| DVec3::new(x, side * apart, 0.0)));
+        let mut offsets: Vec<DVec3> = own.chain(beside).collect();
         offsets.sort_by(|a, b| a.length().total_cmp(&b.length()));
-        let found = reach(DVec3::Z, &offsets[..MOST_NEIGHBORS.min(offsets.len())]);
+        let found = reach(DVec3::Z, &offsets);
         assert_eq!(found.distance > 0.5 * apart, joins, "{apart}: {found:?}");
     }
 }
