@@ -133,6 +133,7 @@ impl View {
             ));
         }
         renderer.check_settings(settings)?;
+        renderer.staging.give_back_idle();
         let (camera, depth) = frame.camera.camera(settings.size_px)?;
         self.check_order(depth)?;
         let mut plan = renderer.frame_plan(arena, frame.scenes, &camera, settings)?;
