@@ -179,6 +179,20 @@ impl Renderer {
         camera: &Camera,
         settings: &Settings,
     ) -> Result<FramePlan<'a>> {
+        self.check_frame(scenes, camera, settings)?;
+        Ok(FramePlan::new(arena, scenes, camera, settings, &self.limits))
+    }
+
+    /// Refuses what can't be drawn of scenes.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Option`].
+    pub(crate) fn check_frame(
+        &self,
+        scenes: &[Placed<'_>],
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<()> {
         self.check(camera, settings)?;
         passes::check_lights(scenes)?;
         for (number, placed) in scenes.iter().enumerate() {
@@ -205,8 +219,7 @@ impl Renderer {
                 settings.check_eye_dome("the scene", "drawn as triangles in part")?;
             }
         }
-        passes::check_digits(scenes, camera)?;
-        Ok(FramePlan::new(arena, scenes, camera, settings, &self.limits))
+        passes::check_digits(scenes, camera)
     }
 
     /// Records one frame. Returns the plan that was recorded.
