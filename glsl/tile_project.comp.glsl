@@ -2,6 +2,10 @@
 // graphics pipeline: what is not regular, and what touches more tiles than lists have room for.
 #version 460
 #extension GL_EXT_control_flow_attributes : require
+#include "inc/config.glsl"
+// A chunk's number is that of a rect; in the bits above it is how many tiles a splat touches at most, which no pipeline is told: a camera that moves would want others without end.
+#define CHUNK (frame.chunk_color >> 1 & (1u << MOST_TILES_SHIFT - 1) - 1)
+#define MOST_TILES (frame.chunk_color >> MOST_TILES_SHIFT)
 #include "inc/setup.glsl"
 #define LIST_BLOCKS BIND_VISIBLE_BLOCKS
 #include "inc/list.glsl"
@@ -16,7 +20,6 @@
 #define TINTS_BINDING BIND_TINTS
 #include "inc/tints.glsl"
 
-layout(constant_id = SPEC_MOST_TILES) const uint MOST_TILES = 64;
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
 layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
 layout(constant_id = SPEC_SHARP) const bool SHARP = false; // and edges are covered in part
@@ -77,7 +80,7 @@ uint rect_of(Mapping m, ImageMap map)
     uvec2 first = uvec2(px.first) / tile;
     uvec2 last = uvec2(px.last) / tile;
     uvec2 more = last - first;
-    if (max(more.x, more.y) > MOST_MORE || (more.x + 1) * (more.y + 1) > MOST_TILES) {
+    if (max(more.x, more.y) > MOST_MORE || MAY_BE_LARGE && (more.x + 1) * (more.y + 1) > MOST_TILES) {
         return large;
     }
     uint outside = max(more.x, more.y) <= MOST_MORE_OF_SMALL ? corners_outside(map, first, last, vec2(tile)) : 0;

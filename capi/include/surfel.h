@@ -1077,10 +1077,13 @@ SurfelResult surfel_view_bytes(const struct SurfelView *view, uint64_t *bytes);
 void surfel_view_destroy(struct SurfelView *view);
 
 /**
- * Makes the pipelines that a frame like this needs within such a rendering: `surfel_view_prepare` makes none for it then. Nothing is
- * recorded. `made` gets how many were missing; it may be NULL. It may take long: while the host loads, or on a thread of its own, while
- * others draw with what is there. A frame is like this with the same settings, showing what is of the same kind (opaque or transparent,
- * disks or ellipses, closed or not, packed or not, polygons, lights), of about as many splats, and as near where they are large.
+ * Makes all pipelines that frames like this need within such a rendering, wherever their cameras are: `surfel_view_prepare` makes none for
+ * them then. Nothing is recorded. `made` gets how many were missing; it may be NULL. It may take long: while the host loads, or on a thread
+ * of its own, while others draw with what is there. A frame is like this that shows scenes of the same kinds (opaque or transparent, disks
+ * or ellipses, closed or not, packed or not, with clip curves, levels of detail, polygons or lights, all of this or none), no more objects and splats of
+ * each, tinted or not as here; by the same settings, but for a budget, clip planes that are other ones, and a picture of this size or a
+ * smaller one; with a camera of the same projection, perspective or parallel, anywhere: from far off, where a splat is less than a pixel, to
+ * among splats that are larger than the picture; and with `hides` as here.
  */
 SurfelResult surfel_compile_ahead(const struct SurfelRenderer *renderer,
                                   const struct SurfelRendering *rendering,

@@ -155,7 +155,6 @@
 #define SPEC_SHIFTED_FOR_ALL 18 // Constant: beside polygons, all splats pass that the polygons' own test lets pass.
 #define SPEC_PART_LENGTH 19     // Constant: entries of a tile that one dispatch takes; tiles with more are overflow tiles.
 #define SPEC_STACKED 20         // Constant: the last layer counts as several surfaces.
-#define SPEC_MOST_TILES 22      // Constant: tiles that a projected splat touches at most.
 #define SPEC_KEEPS_DEPTH 23     // Constant: someone reads the visible depth.
 #define SPEC_PLACE_BITS 24      // Constant: bits of a tile's column or row in a tile rect.
 #define SPEC_TILE_HEIGHT 25     // Constant: pixels of a tile's columns, `MOST_TILE_HEIGHT` or half as many.
@@ -211,6 +210,7 @@
 #define RECT_SIDE_BITS 16     // Bits of a tile rect along a side of the image: the first tile's place, then how many tiles more.
 #define MOST_PLACE_BITS 13    // Of these, bits of a place at most; the rest marks small rects and their corners.
 #define RECT_CHUNK 4294959104 // From this rect on they stand for no tiles but for a chunk each; the last one, all ones, for nothing.
+#define MOST_TILES_SHIFT 14    // Where splats are projected: from this bit on of what tells a chunk's number, how many tiles a splat touches at most.
 #define SLOTS_IN_ROW 256      // Tiles in a row of an image that holds overflow tiles alone.
 #define STATE_VECTORS 4       // Vectors of four floats that are kept of a pixel of an overflow tile's layers.
 #define WHOLE_TILES 2147483647 // The part of a dispatch that does whole tiles and leaves the overflow tiles out.

@@ -38,7 +38,9 @@ vec2 clip_from_axis()
     return 2.0 * frame.middle_px / SIZE_PX - 1.0;
 }
 
+#ifndef CHUNK
 #define CHUNK (frame.chunk_color >> 1)
+#endif
 #define LISTED_BLOCKS (frame.blocks_overlap & 0xffff)
 #define UNIFORM_COLOR ((frame.chunk_color & 1) != 0)
 

@@ -1,14 +1,20 @@
 //! Pipelines ahead of the frames that need them.
 
-use super::{Rendering, View, ViewFrame, fields::as_fields};
-use crate::{arena::Arena, error::Result, passes::MissingPipelines, renderer::Renderer};
+use super::{Rendering, View, ViewFrame, fields::as_fields, to::To};
+use crate::{
+    arena::Arena,
+    error::Result,
+    passes::{MissingPipelines, plan::ahead::Ahead},
+    renderer::Renderer,
+};
 
 impl Renderer {
-    /// Makes the pipelines that a frame like this needs within such a rendering, and tells how many were missing (and made meanwhile by other threads): [`View::prepare`] makes none for it
-    /// then. Nothing is recorded. It may take long: do it while the host loads, or on a thread of its own, while others draw with what is there.
+    /// Makes all pipelines that frames like this need within such a rendering, wherever their cameras are: how many were missing (and made meanwhile by other threads). [`View::prepare`]
+    /// makes none for them then. Nothing is recorded. It may take long: do it while the host loads, or on a thread of its own, while others draw with what is there.
     ///
-    /// A frame is like this with the same settings, showing what is of the same kind (opaque or transparent, disks or ellipses, closed or not, packed or not, polygons,
-    /// lights), of about as many splats; and where a splat comes so near to the camera that it is large, from where that is so, too.
+    /// A frame is like this that shows scenes of the same kinds (opaque or transparent, disks or ellipses, closed or not, packed or not, with clip curves, levels of detail, polygons or
+    /// lights, all of this or none), no more objects and splats of each, tinted or not as here; by the same settings, but for a budget, clip planes that are other ones, and a picture of this size or a smaller one; with a
+    /// camera of the same projection, perspective or parallel, anywhere: from far off, where a splat is less than a pixel, to among splats that are larger than the picture; and with [`ViewFrame::hides`] as here.
     ///
     /// # Errors
     /// As [`View::new`] and [`View::prepare`].
@@ -16,8 +22,15 @@ impl Renderer {
         let before = self.pipelines_made();
         let frame = ViewFrame { missing: MissingPipelines::Make, profile: None, ..*frame };
         let mut view = View::new(self, rendering)?;
-        // SAFETY: the view is new, nothing is recorded, and so the depth image not looked at.
-        unsafe { view.record_passes(&Arena::new(), self, None, &frame) }.map_err(as_fields)?;
+        let mut arena = Arena::new();
+        for size_px in Ahead::sizes_px(frame.settings.size_px) {
+            for ahead in Ahead::all(frame.scenes, frame.settings, &self.limits) {
+                let to = To::Pipelines(ahead, size_px);
+                // SAFETY: the view is new, nothing is recorded, and so the depth image not looked at.
+                unsafe { view.record_passes(&arena, self, to, &frame) }.map_err(as_fields)?;
+                arena.reset();
+            }
+        }
         Ok(self.pipelines_made() - before)
     }
 

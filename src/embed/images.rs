@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ash::vk;
 
 use crate::{
-    error::Result,
+    error::{Error, Result},
     graph::{
         Block, ImageDesc as Wanted, ImageState, MemoryClass, MemoryNeed, ResourceDesc, Usage,
         execute::{Blocks, FRAMES_OF_LATE, memory_need},
@@ -45,9 +45,11 @@ struct Sizes {
 }
 
 struct Placed {
-    // Dropped, and so destroyed, before the memory that it is bound to.
-    image: Image,
+    extent: vk::Extent2D,
+    format: vk::Format,
     block: [Block; 1],
+    // Dropped, and so destroyed, before the memory that it is bound to.
+    image: Option<Image>,
     memory: Vec<Arc<Memory>>,
 }
 
@@ -106,40 +108,55 @@ impl Images {
 
 impl Sizes {
     fn fit(&mut self, device: &Device, desc: ImageDesc<'_>) -> Result<&Image> {
-        let fits =
-            |Placed { image, .. }: &Placed| image.extent() == desc.extent && image.format() == desc.format;
+        let fits = |placed: &Placed| placed.extent == desc.extent && placed.format == desc.format;
         match self.placed.iter().position(fits) {
             Some(place) => self.placed[..=place].rotate_right(1),
-            // What is refused finds all memory idle next time.
-            None => self.make(device, desc).inspect_err(|_| *self = Self::default())?,
+            None => {
+                self.placed.truncate(MOST_SIZES - 1);
+                self.placed.insert(0, Placed::new(device, desc)?);
+            }
         }
-        let Placed { image, block, memory } = &self.placed[0];
+        // What is refused finds all memory idle next time.
+        self.settle(device, desc).inspect_err(|_| *self = Self::default())?;
+        let Some(Placed { image: Some(image), block, memory, .. }) = self.placed.first() else {
+            return Err(Error::option(desc.name, "has no image"));
+        };
         self.blocks.note(block, memory);
         Ok(image)
     }
 
-    fn make(&mut self, device: &Device, desc: ImageDesc<'_>) -> Result<()> {
-        let ImageDesc { name, format, extent, usage } = desc;
-        let wanted = ResourceDesc::Image(Wanted { format, extent });
-        let need = memory_need(device, &wanted, Usage::Image(usage))?;
-        let MemoryNeed { size_bytes, alignment_bytes, type_bits } = need;
-        let block = [Block { class: MemoryClass::Images, size_bytes, alignment_bytes, type_bits }];
-        self.placed.truncate(MOST_SIZES - 1);
-        let memory = self.blocks.serve(device, |_| name, &block)?;
-        self.drop_homeless();
-        let image = Image::placed(device, desc, &memory[0], 0)?;
-        self.placed.insert(0, Placed { image, block, memory });
+    /// Puts the first image in place. Others whose memory had to grow for that leave it, and are placed when they are wanted next.
+    fn settle(&mut self, device: &Device, desc: ImageDesc<'_>) -> Result<()> {
+        let Self { placed, blocks } = self;
+        let Some((Placed { image: image @ None, block, memory, .. }, others)) = placed.split_first_mut()
+        else {
+            return Ok(());
+        };
+        blocks.serve(device, |_| desc.name, block, memory)?;
+        *image = Some(Image::placed(device, desc, &memory[0], 0)?);
+        for other in others.iter_mut().filter(|other| !blocks.have(&other.memory)) {
+            other.image = None;
+            other.memory.clear();
+        }
         Ok(())
     }
 
+    /// Drops images of which the memory was given back: they would hold it.
     fn give_back(&mut self) {
-        self.blocks.give_back();
-        self.drop_homeless();
-    }
-
-    /// Drops images of which the memory was replaced or given back: they would hold it.
-    fn drop_homeless(&mut self) {
         let Self { placed, blocks } = self;
-        placed.retain(|placed| blocks.have(&placed.memory));
+        blocks.give_back();
+        placed.retain(|placed| placed.image.is_some() && blocks.have(&placed.memory));
+    }
+}
+
+impl Placed {
+    /// An image that is in no place yet.
+    fn new(device: &Device, desc: ImageDesc<'_>) -> Result<Self> {
+        let ImageDesc { format, extent, usage, .. } = desc;
+        let wanted = ResourceDesc::Image(Wanted { format, extent });
+        let MemoryNeed { size_bytes, alignment_bytes, type_bits } =
+            memory_need(device, &wanted, Usage::Image(usage))?;
+        let block = [Block { class: MemoryClass::Images, size_bytes, alignment_bytes, type_bits }];
+        Ok(Self { extent, format, block, image: None, memory: Vec::new() })
     }
 }

@@ -21,6 +21,7 @@ mod onto;
 mod over;
 mod scenes;
 mod table;
+mod to;
 mod update;
 mod view;
 

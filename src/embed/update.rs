@@ -2,14 +2,15 @@
 
 use ash::vk;
 
-use crate::{error::Result, prepare::PreparedScene, renderer::Renderer, scene::Splats};
+use crate::{error::Result, prepare::PreparedScene, renderer::Renderer, scene::Splats, vk::Copies};
 
 impl Renderer {
     /// Records a change of splats of a scene that was uploaded with [`crate::scene::Scene::updatable`]: of its object with this number, those from number `first` on become
     /// `splats`, of the object's own kind (disks or ellipses; opaque where the object is). How much the surface overlaps itself and how near another one is, which an upload
     /// measures, stays. Frames that are recorded from now on show it; those that were recorded before and run before it show what was.
     ///
-    /// The bytes go through memory that the host writes, which goes when the epoch that is recorded now is done. Nothing waits.
+    /// The bytes go through one ring of memory that the renderer keeps for all its scenes, in which each epoch's wait until it is done. Nothing waits, and an update as large as those before takes
+    /// nothing from the device's memory, and nothing from the heap. The ring grows where more is in flight at once; what a thousand epochs have not used of it is given back.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`] for another scene, numbers that the object does not have, splats that the upload left out, splats that can't be drawn or are of another
@@ -25,18 +26,13 @@ impl Renderer {
         first: u32,
         splats: &Splats,
     ) -> Result<()> {
-        let Some(staging) = scene.update(Some(self.device()), object, first, splats)? else { return Ok(()) };
-        // What was recorded before reads what is there now.
-        let barriers = [vk::MemoryBarrier2::default()
-            .src_stage_mask(vk::PipelineStageFlags2::VERTEX_SHADER | vk::PipelineStageFlags2::COMPUTE_SHADER)
-            .dst_stage_mask(vk::PipelineStageFlags2::COPY)
-            .src_access_mask(vk::AccessFlags2::NONE)
-            .dst_access_mask(vk::AccessFlags2::TRANSFER_WRITE)];
-        let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-        // SAFETY: this function's contract. The batch is dropped here, and its memory waits for the epoch.
-        unsafe {
-            self.device().raw().cmd_pipeline_barrier2(commands, &info);
-            staging.record(commands);
+        let update = scene.update(Some(self.device()), object, first, splats)?;
+        if update.bytes() > 0 {
+            let region = self.staging.reserve(update.bytes())?;
+            // SAFETY: this function's contract; runs of splats of a chunk do not overlap.
+            let mut copies = unsafe { Copies::begin(self.device(), commands, region) };
+            update.apply(Some(&mut copies));
+            copies.end();
         }
         Ok(())
     }

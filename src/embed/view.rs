@@ -10,6 +10,7 @@ use super::{
     motion::Motion,
     over::{Part, Rendering},
     table::Table,
+    to::To,
 };
 use crate::{
     arena::Arena,
@@ -20,7 +21,7 @@ use crate::{
         execute::{FrameProfile, Physical},
     },
     inline_vec::InlineVec,
-    passes::{self, HostDepth, Inputs, Place, Source, SurfacePlan, Tints, host::BesideHost},
+    passes::{self, FramePlan, HostDepth, Inputs, Place, Source, SurfacePlan, Tints, host::BesideHost},
     prepare::NO_TINT,
     renderer::{Imports, Renderer},
     scene::Edges,
@@ -107,12 +108,12 @@ impl View {
     ) -> Result<()> {
         let arena = self.slot.take_arena();
         // SAFETY: this function's contract.
-        let recorded = unsafe { self.record_passes(&arena, renderer, Some(commands), frame) };
+        let recorded = unsafe { self.record_passes(&arena, renderer, To::Commands(commands), frame) };
         self.slot.give_back(arena);
         recorded.map_err(as_fields)
     }
 
-    /// The same, in a frame's memory; without commands, all up to where it would be recorded: pipelines are there then.
+    /// The same, in a frame's memory; of one that is not recorded, all up to there: its pipelines are there then.
     ///
     /// # Safety
     /// As [`Self::prepare`].
@@ -120,7 +121,7 @@ impl View {
         &mut self,
         arena: &Arena,
         renderer: &Renderer,
-        commands: Option<vk::CommandBuffer>,
+        to: To,
         frame: &ViewFrame<'_>,
     ) -> Result<()> {
         self.prepared = None;
@@ -133,9 +134,13 @@ impl View {
             ));
         }
         renderer.check_settings(settings)?;
+        renderer.staging.give_back_idle();
         let (camera, depth) = frame.camera.camera(settings.size_px)?;
         self.check_order(depth)?;
-        let mut plan = renderer.frame_plan(arena, frame.scenes, &camera, settings)?;
+        renderer.check_frame(frame.scenes, &camera, settings)?;
+        let settings = &to.settings(settings);
+        let (limits, ahead) = (&renderer.limits, to.ahead());
+        let mut plan = FramePlan::of(arena, frame.scenes, &camera, (settings, limits), ahead);
         if !self.rendering.has_color() {
             plan.transparent = SurfacePlan::default();
         }
@@ -143,11 +148,11 @@ impl View {
         self.check_frame(frame, layered)?;
         let camera_before = Self::camera_before(frame)?.unwrap_or(camera);
         let plan =
-            if self.rendering.wants_objects() { plan.with_objects(arena, &renderer.limits) } else { plan };
+            if self.rendering.wants_objects() { plan.with_objects(arena, limits, ahead) } else { plan };
         let finds_objects = plan.objects.is_some();
         let depth = HostDepth { corner_px: frame.corner_px, ..host_depth(depth, &camera, plan.range) };
         let format = self.rendering.surface_format();
-        let size_px = if commands.is_some() { settings.size_px } else { [1; 2] };
+        let size_px = if ahead.is_none() { settings.size_px } else { [1; 2] };
         let images = self.images.fit(&self.device, (format, size_px), (layered, finds_objects))?;
 
         let counts_draws = self.device.facts().draw_indirect_count;
@@ -201,7 +206,7 @@ impl View {
             layers: layers.as_mut(),
         };
         passes::frame(&mut graph, inputs, &plan, &mut surface, format, (false, Some(beside)))?;
-        let Some(commands) = commands else { return Ok(()) };
+        let To::Commands(commands) = to else { return Ok(()) };
         // SAFETY: as above.
         unsafe {
             renderer.shaders.begin_frame(commands)?;

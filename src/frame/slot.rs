@@ -12,13 +12,13 @@ use crate::{
         execute::{Body, Kept, Physical, Profile, Profiler},
     },
     passes::{Needs, PLANES_BYTES, Planes, ShaderPlane},
-    vk::{Buffer, BufferDesc, DescriptorPool, Device, MemoryUse, Occlusion, PoolSizes},
+    vk::{Buffer, BufferDesc, DescriptorPool, Device, MemoryUse, Occlusion},
 };
 
 /// Descriptor sets, queries, plan and transients of one frame at a time.
 pub struct FrameSlot {
     device: Device,
-    descriptors: Option<(DescriptorPool, PoolSizes)>,
+    descriptors: Option<DescriptorPool>,
     profiler: Option<(Profiler, Profile)>,
     occlusion: Option<Occlusion>,
     /// The frame counts with them.
@@ -98,15 +98,13 @@ impl FrameSlot {
             self.occlusion = Some(Occlusion::new(&self.device, "layers", queries)?);
         }
         self.counts_layers = queries > 0;
-        match &self.descriptors {
-            // SAFETY: this function's contract.
-            Some((pool, room)) if room.holds(&wanted) => unsafe { pool.reset() }?,
-            before => {
-                // Room for what others need, too: frames take turns.
-                let room = before.as_ref().map_or(wanted, |(_, room)| room.max(&wanted));
-                let pool = DescriptorPool::for_frames(&self.device, "frame sets", room)?;
-                self.descriptors = Some((pool, room));
+        match &mut self.descriptors {
+            Some(pool) => {
+                // SAFETY: this function's contract.
+                unsafe { pool.reset() };
+                pool.expect(&wanted);
             }
+            none => *none = Some(DescriptorPool::new(&self.device, "frame sets", wanted)?),
         }
         if self.profiler.as_ref().map(|(_, kept)| *kept) != profile {
             let profiler = |profile| Profiler::new(&self.device, profile).map(|made| (made, profile));
@@ -144,7 +142,7 @@ impl FrameSlot {
     /// # Errors
     /// [`ErrorKind::Graph`] before [`FrameSlot::begin`].
     pub(crate) fn parts(&mut self) -> Result<SlotParts<'_>> {
-        let Some((descriptors, _)) = &self.descriptors else {
+        let Some(descriptors) = &self.descriptors else {
             let reason = "the frame slot was not begun".to_owned();
             return Err(ErrorKind::Graph { pass: String::new(), resource: String::new(), reason }.into());
         };

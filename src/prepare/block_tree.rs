@@ -37,6 +37,38 @@ impl BlockTree {
     }
 }
 
+impl BlockTree {
+    /// Takes over changes of some of the blocks, by their numbers in order, none of which has levels of detail; `above` has what [`above`] made of the blocks before, and has then
+    /// what it makes of these.
+    pub(super) fn renew(
+        &mut self,
+        blocks: &[Block],
+        above: &mut [Vec<Block>],
+        changed: impl Iterator<Item = usize> + Clone,
+    ) {
+        let mut of_quad = CHILDREN;
+        for level in 0..self.levels.len() {
+            let (done, rest) = above.split_at_mut(level);
+            let own: &[Block] = done.last().map_or(blocks, |own| own);
+            for place in distinct(changed.clone().map(|block| block / of_quad)) {
+                let end = own.len().min((place + 1) * CHILDREN);
+                let children = &own[place * CHILDREN..end];
+                self.levels[level][place] = Quad::of(children);
+                if let Some(next) = rest.first_mut() {
+                    next[place] = around(children);
+                }
+            }
+            of_quad *= CHILDREN;
+        }
+    }
+}
+
+/// Numbers in order, each once.
+pub(super) fn distinct<N: PartialEq + Copy>(numbers: impl Iterator<Item = N>) -> impl Iterator<Item = N> {
+    let mut last = None;
+    numbers.filter(move |number| last.replace(*number) != Some(*number))
+}
+
 /// Bounds of [`CHILDREN`] of these blocks, then of as many of those, and so on up to the top. None of few blocks.
 pub(super) fn above(blocks: &[Block]) -> Vec<Vec<Block>> {
     let mut levels: Vec<Vec<Block>> = Vec::new();

@@ -10,7 +10,7 @@ use super::{
     pack::{Packed, Survey},
     packed,
 };
-use crate::shaders::config::BLOCK_SPLATS;
+use crate::{inline_vec::InlineVec, shaders::config::BLOCK_SPLATS};
 
 /// The bounds of the splats of a block, in the chunk's local space.
 #[derive(Clone, Debug)]
@@ -64,10 +64,11 @@ impl Block {
 }
 
 impl Block {
-    /// The block of these splats, as they are packed, and the box of their centers.
+    /// The block of these splats, no more than it has, as they are packed, and the box of their centers.
     pub(super) fn of(words: &[[u32; 4]], survey: &Survey) -> (Self, [DVec3; 2]) {
         let each = survey.shape_bytes() / 16;
-        let splats: Vec<_> = words.chunks_exact(each).map(|words| sample(words, survey)).collect();
+        let splats: InlineVec<_, { BLOCK_SPLATS as usize }> =
+            words.chunks_exact(each).map(|words| sample(words, survey)).collect();
         let nowhere = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         let bounds =
             splats.iter().fold(nowhere, |[lo, hi], splat| [lo.min(splat.center), hi.max(splat.center)]);
@@ -76,6 +77,7 @@ impl Block {
 }
 
 /// A splat as the device has it.
+#[derive(Clone, Copy, Default)]
 struct Sample {
     center: DVec3,
     /// Of unit length.

@@ -73,6 +73,7 @@ pub(super) fn cut(
             storage: scene.storage,
             mean_transparent_radius: 0.0,
             defects: DefectCounts::default(),
+            changes: Default::default(),
         },
     };
     for (number, object) in scene.objects.iter().enumerate() {

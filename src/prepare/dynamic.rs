@@ -142,6 +142,7 @@ impl PreparedScene {
             mean_transparent_radius: if splats.transparent { splats.largest_radius } else { 0.0 },
             refinements: Vec::new(),
             defects: DefectCounts::default(),
+            changes: Default::default(),
         };
         scene.set_dynamic(splats)?;
         Ok(scene)

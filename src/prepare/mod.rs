@@ -54,6 +54,7 @@ use std::ops::Range;
 
 use cut::cut;
 use memory::Uploader;
+pub(crate) use updatable::Changes;
 
 use crate::{
     error::Result,
@@ -82,6 +83,8 @@ pub struct PreparedScene {
     pub refinements: Vec<Refinements>,
     /// The splats that were left out, in all objects together.
     pub defects: DefectCounts,
+    /// What changes of its splats are found with.
+    pub(crate) changes: Changes,
 }
 
 impl PreparedScene {

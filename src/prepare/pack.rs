@@ -156,7 +156,7 @@ pub fn survey(splats: &Splats, which: impl Iterator<Item = usize>, rebase: Rebas
 }
 
 /// Position and major radius in local space, of a splat that can be drawn.
-fn local(splats: &Splats, i: usize, rebase: Rebase) -> Result<(DVec3, f64), Defect> {
+pub(super) fn local(splats: &Splats, i: usize, rebase: Rebase) -> Result<(DVec3, f64), Defect> {
     let position = rebase.point(splats.positions[i]);
     let radius = splats.major_radius(i) * rebase.scale;
     // Beyond f32 from where the others are: no shader may meet an infinity.
@@ -180,14 +180,23 @@ pub(super) fn pack(
     survey: &Survey,
     beside: Beside<'_>,
 ) -> Packed {
+    let mut packed = Packed::default();
+    pack_behind(splats, which, survey, beside, &mut packed);
+    packed
+}
+
+/// The same, behind others.
+pub(super) fn pack_behind(
+    splats: &Splats,
+    which: impl ExactSizeIterator<Item = usize>,
+    survey: &Survey,
+    beside: Beside<'_>,
+    packed: &mut Packed,
+) {
     let (rebase, uniform_color) = (survey.rebase, survey.uniform_color);
     let room = which.len();
-    let mut packed = Packed {
-        count: 0,
-        shapes: Vec::with_capacity(room * survey.shape_bytes() / 16),
-        clips: Vec::new(),
-        colors: Vec::with_capacity(if uniform_color { 1 } else { room } * survey.color_bytes() / 4),
-    };
+    packed.shapes.reserve(room * survey.shape_bytes() / 16);
+    packed.colors.reserve(if uniform_color { 1 } else { room } * survey.color_bytes() / 4);
     let bits = |v: DVec3, w: f64| v.as_vec3().extend(w as f32).to_array().map(f32::to_bits);
     let with = |v: DVec3, word: u32| {
         let [x, y, z] = v.as_vec3().to_array().map(f32::to_bits);
@@ -233,7 +242,6 @@ pub(super) fn pack(
         }
         packed.count += 1;
     }
-    packed
 }
 
 /// The word of a splat's share of ε, less than 1 by this, and of one over its overlap.

@@ -14,11 +14,20 @@ const STEPS: usize = 1 << 13;
 const SHIFT: u32 = 50;
 
 /// Counts while splats are looked through.
+#[derive(Default)]
 pub(super) struct RadiusCounts(Vec<u32>);
 
 impl RadiusCounts {
     pub fn new() -> Self {
-        Self(vec![0; STEPS])
+        let mut counts = Self::default();
+        counts.clear();
+        counts
+    }
+
+    /// None.
+    pub fn clear(&mut self) {
+        self.0.clear();
+        self.0.resize(STEPS, 0);
     }
 
     /// One more, of a finite radius.
@@ -33,11 +42,16 @@ impl RadiusCounts {
 
     /// The steps that there are, the smallest first.
     pub fn steps(&self) -> Vec<RadiusStep> {
+        self.each_step().collect()
+    }
+
+    /// The same, one by one.
+    pub fn each_step(&self) -> impl Iterator<Item = RadiusStep> {
         let step = |(i, count): (usize, &u32)| {
             let radius = f64::from_bits((i as u64 + 1) << SHIFT);
             (*count > 0).then_some(RadiusStep { radius, count: *count })
         };
-        self.0.iter().enumerate().filter_map(step).collect()
+        self.0.iter().enumerate().filter_map(step)
     }
 }
 

@@ -35,7 +35,7 @@ use crate::{
     passes::{self, FramePlan, Inputs, MissingPipelines, Place, Shaders, Source},
     prepare::{Placed, PreparedScene, prepare},
     scene::{Accumulate, Camera, Edges, Scene, Settings, Shading},
-    vk::{Device, Limits, Staging},
+    vk::{Device, Limits, Staging, StagingRing},
 };
 
 /// Draws splats on a device.
@@ -45,6 +45,8 @@ pub struct Renderer {
     pub(crate) number: u64,
     pub(crate) limits: Limits,
     pub(crate) shaders: Shaders,
+    /// What splats that change go through.
+    pub(crate) staging: StagingRing,
 }
 
 /// Buffers that the frame is copied to, for the host to read: rows without padding, top row first. `Some` asks for
@@ -82,7 +84,8 @@ impl Renderer {
     pub fn new(device: &Device, cache_folder: Option<&std::path::Path>) -> Result<Self> {
         static MADE: AtomicU64 = AtomicU64::new(0);
         let (limits, number) = (device.facts().limits, MADE.fetch_add(1, Ordering::Relaxed));
-        Ok(Self { device: device.clone(), number, limits, shaders: Shaders::new(device, cache_folder)? })
+        let (shaders, staging) = (Shaders::new(device, cache_folder)?, StagingRing::new(device));
+        Ok(Self { device: device.clone(), number, limits, shaders, staging })
     }
 
     /// Pipelines and their layouts.
@@ -176,6 +179,20 @@ impl Renderer {
         camera: &Camera,
         settings: &Settings,
     ) -> Result<FramePlan<'a>> {
+        self.check_frame(scenes, camera, settings)?;
+        Ok(FramePlan::new(arena, scenes, camera, settings, &self.limits))
+    }
+
+    /// Refuses what can't be drawn of scenes.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Option`].
+    pub(crate) fn check_frame(
+        &self,
+        scenes: &[Placed<'_>],
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<()> {
         self.check(camera, settings)?;
         passes::check_lights(scenes)?;
         for (number, placed) in scenes.iter().enumerate() {
@@ -202,8 +219,7 @@ impl Renderer {
                 settings.check_eye_dome("the scene", "drawn as triangles in part")?;
             }
         }
-        passes::check_digits(scenes, camera)?;
-        Ok(FramePlan::new(arena, scenes, camera, settings, &self.limits))
+        passes::check_digits(scenes, camera)
     }
 
     /// Records one frame. Returns the plan that was recorded.

@@ -64,6 +64,7 @@ impl PagedScene {
             mean_transparent_radius: 0.0,
             refinements: Vec::new(),
             defects: Default::default(),
+            changes: Default::default(),
         };
         Ok(Self { pager, most_bytes, prepared, groups: Vec::new(), is_there, is_full: false })
     }

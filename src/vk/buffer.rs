@@ -1,5 +1,7 @@
 //! Buffers.
 
+use std::ptr::NonNull;
+
 use ash::vk;
 
 use super::{
@@ -140,6 +142,11 @@ impl Buffer {
     /// Whether it is of a device, and copies to it are allowed.
     pub(super) fn takes_copies(&self, device: &Device) -> bool {
         self.device.is(device) && self.usage.contains(vk::BufferUsageFlags::TRANSFER_DST)
+    }
+
+    /// Its first byte, where the host can see it: there as long as the buffer is. Whoever writes there minds what the device reads.
+    pub(super) fn mapped(&self) -> Option<NonNull<u8>> {
+        self.allocation.as_ref()?.mapped()
     }
 
     /// Its bytes, where the host can see them ([`MemoryUse::Upload`], [`MemoryUse::Readback`]); else empty.

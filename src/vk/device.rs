@@ -33,6 +33,8 @@ struct Shared {
     names: Option<ext::debug_utils::Device>,
     /// The epoch in which commands are being recorded now: one more than the last submission's.
     epoch: AtomicU64,
+    /// All epochs up to this one are done.
+    done: AtomicU64,
     // `None` only while `drop` runs. Locked together, so that there is one order of locks.
     memory: Mutex<Option<(Source, Garbage)>>,
     /// Whether a [`super::Queue`] counts the epochs; a host does so for a borrowed device.
@@ -147,6 +149,7 @@ impl Device {
             queue_family,
             names,
             epoch: AtomicU64::new(FIRST_EPOCH),
+            done: AtomicU64::new(FIRST_EPOCH - 1),
             memory: Mutex::new(Some((source, Garbage::default()))),
             queue_taken: AtomicBool::new(!owned),
             origin,
@@ -199,11 +202,22 @@ impl Device {
         self.0.epoch.fetch_add(1, Ordering::AcqRel)
     }
 
+    /// The epoch in which commands are recorded now.
+    pub(super) fn epoch(&self) -> u64 {
+        self.0.epoch.load(Ordering::Acquire)
+    }
+
+    /// The last epoch that is done, with all before it.
+    pub(super) fn epochs_done(&self) -> u64 {
+        self.0.done.load(Ordering::Acquire)
+    }
+
     /// Destroys all that was dropped up to the end of an epoch.
     ///
     /// # Safety
     /// The device has finished every submission up to the one whose [`Device::end_epoch`] gave `epoch`.
     pub unsafe fn epoch_done(&self, epoch: u64) {
+        self.0.done.fetch_max(epoch, Ordering::AcqRel);
         if let Some((allocator, garbage)) = self.memory().as_mut() {
             // SAFETY: this function's contract.
             unsafe { garbage.collect(epoch, &self.0.raw, allocator) };

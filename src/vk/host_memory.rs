@@ -82,6 +82,14 @@ impl Piece {
         }
     }
 
+    /// Its first byte, where the processor sees it.
+    pub fn mapped(&self) -> Option<NonNull<u8>> {
+        match self {
+            Self::Ours(allocation) => allocation.mapped_ptr().map(NonNull::cast),
+            Self::Host(allocation, _) => allocation.mapped,
+        }
+    }
+
     /// Its bytes, where the processor sees them; else none.
     pub fn bytes(&self) -> &[u8] {
         match self {

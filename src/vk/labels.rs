@@ -1,17 +1,18 @@
 //! Names of objects and labels in command buffers: for people, in captures and messages.
 
-use std::ffi::{CStr, CString};
+use std::ffi::CStr;
 
 use ash::vk;
 
 use super::device::Device;
 
 impl Device {
-    /// Gives an object its debug name.
+    /// Gives an object its debug name, as much of it as has room in place.
     pub(crate) fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
         if let Some(names) = self.debug_utils() {
-            let text = CString::new(name.replace('\0', " ")).unwrap_or_default();
-            let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&text);
+            let mut room = [0; LABEL_BYTES];
+            let text = in_place(name, &mut room);
+            let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(text);
             // A name is a help for people: failing to set one changes nothing.
             // SAFETY: the object is alive and belongs to this device; the extension is enabled.
             let _ = unsafe { names.set_debug_utils_object_name(&info) };
@@ -37,7 +38,7 @@ impl Device {
     }
 }
 
-/// Bytes of a label with its end.
+/// Bytes of a name or label with its end.
 const LABEL_BYTES: usize = 128;
 
 /// A name, or as much of it as has room, up to what would end it.
@@ -52,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn labels_are_names_as_far_as_they_have_room() {
+    fn names_and_labels_are_as_long_as_they_have_room() {
         let of = |name: &str| in_place(name, &mut [0; LABEL_BYTES]).to_str().unwrap().to_owned();
         assert_eq!(of("depth of tiles"), "depth of tiles");
         assert_eq!(of("ends\0here"), "ends");

@@ -10,7 +10,9 @@ mod buffer;
 mod choose;
 mod commands;
 mod compute_pipeline;
+mod copies;
 mod descriptor;
+mod descriptor_pool;
 mod descriptors;
 mod device;
 mod executables;
@@ -40,6 +42,7 @@ mod sampler;
 mod semaphore;
 mod stage_limits;
 mod staging;
+mod staging_ring;
 mod stand_ins;
 #[cfg(feature = "view")]
 mod surface;
@@ -54,8 +57,10 @@ pub use buffer::{Buffer, BufferDesc};
 pub use choose::{DeviceFacts, DeviceKind, Limits, choose};
 pub use commands::CommandPool;
 pub use compute_pipeline::{ComputePipeline, ComputePipelineDesc};
+pub(crate) use copies::Copies;
 pub use descriptor::Descriptor;
-pub use descriptors::{Binding, DescriptorPool, SealedPool, SetLayout};
+pub use descriptor_pool::{DescriptorPool, SealedPool};
+pub use descriptors::{Binding, SetLayout};
 pub use device::Device;
 pub use executables::{Executable, executables};
 pub(crate) use facts::LEAST_STORAGE_BUFFERS;
@@ -82,6 +87,7 @@ pub use sampler::Sampler;
 #[cfg(feature = "view")]
 pub use semaphore::Semaphore;
 pub use staging::Staging;
+pub(crate) use staging_ring::StagingRing;
 pub(crate) use stand_ins::STAND_IN_BYTES;
 pub use stand_ins::StandIns;
 #[cfg(feature = "view")]

@@ -22,6 +22,21 @@ pub struct PoolSizes {
 }
 
 impl PoolSizes {
+    /// Of one descriptor; of kinds that no pool has room for, nothing.
+    pub(super) fn one(kind: vk::DescriptorType) -> Self {
+        let mut one = Self::default();
+        let counts = [
+            (vk::DescriptorType::STORAGE_BUFFER, &mut one.buffers),
+            (vk::DescriptorType::UNIFORM_BUFFER, &mut one.uniform_buffers),
+            (vk::DescriptorType::UNIFORM_TEXEL_BUFFER, &mut one.texel_buffers),
+            (vk::DescriptorType::SAMPLED_IMAGE, &mut one.images),
+            (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, &mut one.filtered_images),
+            (vk::DescriptorType::STORAGE_IMAGE, &mut one.storage_images),
+        ];
+        counts.into_iter().filter(|(own, _)| *own == kind).for_each(|(_, count)| *count = 1);
+        one
+    }
+
     /// The descriptors of each kind.
     pub(super) fn kinds(&self) -> [(vk::DescriptorType, u32); 6] {
         [
@@ -44,6 +59,19 @@ impl PoolSizes {
             images: self.images + other.images,
             filtered_images: self.filtered_images + other.filtered_images,
             storage_images: self.storage_images + other.storage_images,
+        }
+    }
+
+    /// What is left without that, which it [`holds`](Self::holds).
+    pub(super) fn minus(&self, taken: &Self) -> Self {
+        Self {
+            sets: self.sets - taken.sets,
+            buffers: self.buffers - taken.buffers,
+            uniform_buffers: self.uniform_buffers - taken.uniform_buffers,
+            texel_buffers: self.texel_buffers - taken.texel_buffers,
+            images: self.images - taken.images,
+            filtered_images: self.filtered_images - taken.filtered_images,
+            storage_images: self.storage_images - taken.storage_images,
         }
     }
 

@@ -63,23 +63,32 @@ impl Staging {
     /// batch's copies overlap. The targets are alive until the commands have run, what was done with them before is waited for, and nothing is
     /// [pushed](Self::push) until then.
     pub unsafe fn record(&self, commands: vk::CommandBuffer) {
-        let barriers = [vk::MemoryBarrier2::default()
-            .src_stage_mask(vk::PipelineStageFlags2::COPY)
-            .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
-            .dst_stage_mask(
-                vk::PipelineStageFlags2::INDEX_INPUT
-                    | vk::PipelineStageFlags2::VERTEX_SHADER
-                    | vk::PipelineStageFlags2::COMPUTE_SHADER,
-            )
-            .dst_access_mask(vk::AccessFlags2::INDEX_READ | vk::AccessFlags2::SHADER_STORAGE_READ)];
-        let info = vk::DependencyInfo::default().memory_barriers(&barriers);
         let device = self.device.raw();
         // SAFETY: this function's contract; each region lies within both buffers.
         unsafe {
             for (target, region) in &self.copies {
                 device.cmd_copy_buffer(commands, self.buffer.raw(), *target, std::slice::from_ref(region));
             }
-            device.cmd_pipeline_barrier2(commands, &info);
+            make_visible(&self.device, commands);
         }
     }
+}
+
+/// Makes copies before visible to the vertex and compute stages of every later command, and as indices.
+///
+/// # Safety
+/// `commands` are of this device, and recording outside of rendering.
+pub(super) unsafe fn make_visible(device: &Device, commands: vk::CommandBuffer) {
+    let barriers = [vk::MemoryBarrier2::default()
+        .src_stage_mask(vk::PipelineStageFlags2::COPY)
+        .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+        .dst_stage_mask(
+            vk::PipelineStageFlags2::INDEX_INPUT
+                | vk::PipelineStageFlags2::VERTEX_SHADER
+                | vk::PipelineStageFlags2::COMPUTE_SHADER,
+        )
+        .dst_access_mask(vk::AccessFlags2::INDEX_READ | vk::AccessFlags2::SHADER_STORAGE_READ)];
+    let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+    // SAFETY: this function's contract.
+    unsafe { device.raw().cmd_pipeline_barrier2(commands, &info) };
 }

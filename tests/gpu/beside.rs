@@ -13,6 +13,7 @@ mod objects;
 mod onto;
 mod recording;
 mod refusals;
+mod ring;
 mod several;
 mod tints;
 mod transparent;

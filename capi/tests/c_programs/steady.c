@@ -74,6 +74,13 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     TRUE(made == 0);
     OK(surfel_compile_ahead(renderer, &rendering, &frame, NULL));
     IS(INVALID_ARGUMENT, surfel_compile_ahead(NULL, &rendering, &frame, &made), "renderer is NULL");
+    /* One call suffices, from afar to among the splats. */
+    SurfelFrame on_the_way = frame;
+    for (double distance = 1000; distance > 0.01; distance *= 0.8) {
+        on_the_way.viewFromWorld[14] = -distance;
+        engine_begin(engine);
+        OK(surfel_view_prepare(view, engine->commands, &on_the_way));
+    }
     for (int number = 0; number < FRAMES; number++) {
         engine_begin(engine);
         engine_begin_rendering(engine, 1);

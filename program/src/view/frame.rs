@@ -36,7 +36,7 @@ impl Frame {
         Ok(Self {
             commands: CommandPool::new(device, &name)?,
             acquired: Semaphore::new(device, "window image is free")?,
-            sets: DescriptorPool::for_frames(device, &format!("sets of {name}"), room)?,
+            sets: DescriptorPool::new(device, &format!("sets of {name}"), room)?,
             overlay: OverlayBuffers::default(),
             epoch: 0,
         })

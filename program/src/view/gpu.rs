@@ -177,7 +177,7 @@ impl Gpu {
         // SAFETY: recording; the frame's submission before was waited for, so its pool and buffers are free; pictures are in the layout
         // that fragments sample them in once they were drawn.
         unsafe {
-            frame.sets.reset()?;
+            frame.sets.reset();
             begin_rendering(self.headless.device(), commands, image, swapchain.extent());
             if let Some((uses, show)) = &desc.shown {
                 let shots = uses.map(|which| self.pictures[which.index()].shot());

@@ -33,7 +33,7 @@ const RESERVE: u64 = 4;
 const MOST_TIMES_TOO_LARGE: u64 = 2;
 
 impl Blocks {
-    /// Memory for each block of a plan, by names for what lies in it: what there is where that will do; where it does not, it is left to
+    /// Gives memory for each block of a plan, by names for what lies in it, in place of what was served before: what there is where that will do; where it does not, it is left to
     /// whoever holds it, and is replaced.
     ///
     /// # Errors
@@ -43,8 +43,9 @@ impl Blocks {
         device: &Device,
         name: impl Fn(MemoryClass) -> &'n str,
         wanted: &[Block],
-    ) -> Result<Vec<Arc<Memory>>> {
-        let mut served: Vec<Arc<Memory>> = Vec::with_capacity(wanted.len());
+        served: &mut Vec<Arc<Memory>>,
+    ) -> Result<()> {
+        served.clear();
         for block in wanted {
             let is_free = |shared: &Shared| !served.iter().any(|memory| Arc::ptr_eq(memory, &shared.memory));
             let place = self.0.iter().position(|shared| shared.could_serve(block) && is_free(shared));
@@ -66,7 +67,7 @@ impl Blocks {
             };
             served.push(memory);
         }
-        Ok(served)
+        Ok(())
     }
 
     /// Takes down that a plan is executed in memory that it was given.

@@ -11,7 +11,7 @@ use super::{
     blocks::{Blocks, FRAMES_OF_LATE},
     execute,
     rooms::{Room, renew, serve},
-    transients::{Transients, memory_need, transient_name},
+    transients::{Transients, memory_need},
 };
 use crate::{
     error::Result,
@@ -100,6 +100,7 @@ impl Kept {
                 self.ready.insert(0, made);
             }
         }
+        self.settle(device).inspect_err(|_| *self = Self::default())?;
         let ready = &mut self.ready[0];
         ready.executed = self.executions;
         if !ready.plan.has_sizes_of(graph) {
@@ -138,10 +139,27 @@ impl Kept {
         };
         let plan = graph.compile(need)?;
         self.ready.truncate(MOST_PLANS - 1);
-        let memory = self.blocks.serve(device, transient_name, &plan.blocks)?;
-        self.drop_homeless();
-        let transients = Transients::placed(device, &plan, memory, |place| rooms[place].room_bytes)?;
-        Ok(Ready { plan: Arc::new(plan), transients, rooms, executed: self.executions })
+        Ok(Ready {
+            plan: Arc::new(plan),
+            transients: Transients::homeless(),
+            rooms,
+            executed: self.executions,
+        })
+    }
+
+    /// Puts the transients of the first plan in place. Others whose memory had to grow for that, or goes, leave it, and are placed when they are wanted next.
+    fn settle(&mut self, device: &Device) -> Result<()> {
+        let Self { ready, blocks, .. } = self;
+        let Some((Ready { plan, transients, rooms, .. }, others)) = ready.split_first_mut() else {
+            return Ok(());
+        };
+        if !transients.is_homeless(plan) {
+            return Ok(());
+        }
+        transients.place(device, plan, blocks, |place| rooms[place].room_bytes)?;
+        let left = others.iter_mut().filter(|other| !blocks.have(other.transients.memory()));
+        left.for_each(|other| other.transients.leave());
+        Ok(())
     }
 
     /// Gives back what executions of late have not used.
@@ -152,7 +170,7 @@ impl Kept {
         self.drop_homeless();
     }
 
-    /// Drops plans of which the memory was replaced or given back: they would hold it.
+    /// Drops plans of which the memory was given back: they would hold it.
     fn drop_homeless(&mut self) {
         let Self { ready, blocks, .. } = self;
         ready.retain(|ready| blocks.have(ready.transients.memory()));

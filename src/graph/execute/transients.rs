@@ -67,29 +67,64 @@ impl Transients {
     /// # Errors
     /// Whatever the allocator or the driver answers.
     pub fn new(device: &Device, plan: &Plan) -> Result<Self> {
-        let memory = Blocks::default().serve(device, transient_name, &plan.blocks)?;
         let size_bytes = |place: usize| match plan.resources[place].desc {
             ResourceDesc::Buffer(desc) => desc.size_bytes,
             ResourceDesc::Image(_) => 0,
         };
-        Self::placed(device, plan, memory, size_bytes)
+        let mut transients = Self::homeless();
+        transients.place(device, plan, &mut Blocks::default(), size_bytes)?;
+        Ok(transients)
     }
 
-    /// Creates all transients of a plan in memory for its blocks. `room`: how many bytes the buffer has room for that is in this place among the
+    /// None yet.
+    pub(super) fn homeless() -> Self {
+        Self { objects: Vec::new(), memory: Vec::new() }
+    }
+
+    /// Lets go of all objects and their memory, to be placed elsewhere.
+    pub(super) fn leave(&mut self) {
+        self.objects.clear();
+        self.memory.clear();
+    }
+
+    /// Whether there are none, of a plan that has some.
+    pub(super) fn is_homeless(&self, plan: &Plan) -> bool {
+        self.objects.len() < plan.resources.len()
+    }
+
+    /// Creates all transients of a plan, of which there are none, in memory of these blocks. `room`: how many bytes the buffer has room for that is in this place among the
     /// resources; as many as it needs, or more where the plan's memory was asked for so.
     ///
     /// # Errors
-    /// Whatever the driver answers.
-    pub(super) fn placed(
+    /// Whatever the allocator or the driver answers; then there are none.
+    pub(super) fn place(
+        &mut self,
         device: &Device,
         plan: &Plan,
-        memory: Vec<Arc<Memory>>,
+        blocks: &mut Blocks,
         room: impl Fn(usize) -> u64,
-    ) -> Result<Self> {
-        let objects = plan.resources.iter().enumerate().map(|(place, resource)| {
-            let Some(slot) = resource.slot else { return Ok(None) };
+    ) -> Result<()> {
+        let placed = self.try_place(device, plan, blocks, room);
+        placed.inspect_err(|_| self.leave())
+    }
+
+    fn try_place(
+        &mut self,
+        device: &Device,
+        plan: &Plan,
+        blocks: &mut Blocks,
+        room: impl Fn(usize) -> u64,
+    ) -> Result<()> {
+        let Self { objects, memory } = self;
+        blocks.serve(device, transient_name, &plan.blocks, memory)?;
+        objects.reserve(plan.resources.len());
+        for (place, resource) in plan.resources.iter().enumerate() {
+            let Some(slot) = resource.slot else {
+                objects.push(None);
+                continue;
+            };
             let (block, offset) = (&memory[slot.block], slot.offset_bytes);
-            Ok(match (resource.desc, resource.usage) {
+            objects.push(match (resource.desc, resource.usage) {
                 (ResourceDesc::Image(desc), Usage::Image(usage)) => {
                     let desc = image_desc(&resource.name, desc, usage);
                     Some(Object::Image(Image::placed(device, desc, block, offset)?))
@@ -105,10 +140,9 @@ impl Transients {
                     }))
                 }
                 _ => None,
-            })
-        });
-        let objects = objects.collect::<Result<Vec<_>>>()?;
-        Ok(Self { objects, memory })
+            });
+        }
+        Ok(())
     }
 
     /// Bytes of device memory.

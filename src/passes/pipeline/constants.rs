@@ -2,6 +2,11 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::shaders::config::{MOST_TILES_SHIFT, RECT_CHUNK};
+
+// Numbers of chunks that rects tell apart, and whether they have color 0, lie below.
+const _: () = assert!(2 * (u32::MAX - RECT_CHUNK) < 1 << MOST_TILES_SHIFT);
+
 /// What every splat pass is told of the frame; see `glsl/inc/frame.glsl` for spaces and units.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -58,6 +63,12 @@ impl FrameConstants {
     /// Gives the chunk its number in its part of the frame.
     pub(crate) fn number_chunk(&mut self, number: u32) {
         self.chunk_color = 2 * number + self.chunk_color % 2;
+    }
+
+    /// The same where splats are projected, which touch so many tiles at most.
+    pub(crate) fn with_most_tiles(self, most: u32) -> Self {
+        let chunk_color = self.chunk_color & ((1 << MOST_TILES_SHIFT) - 1) | most << MOST_TILES_SHIFT;
+        Self { chunk_color, ..self }
     }
 }
 

@@ -26,8 +26,13 @@ pub(crate) fn lists_tiles(splats: &[Draw<'_>], settings: &Settings, limits: &Lim
     settings.cull != Cull::Setup && list_has_room(blocks_of(splats), limits)
 }
 
-/// Whether the graphics pipeline draws listed splats alone. Layers draw all.
-pub(crate) fn lists_primitives(splats: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
+/// Whether the graphics pipeline draws listed splats alone, some of which [may be left out](may_leave_out) or not. Layers draw all.
+pub(crate) fn lists_primitives(
+    splats: &[Draw<'_>],
+    leaves_out: bool,
+    settings: &Settings,
+    limits: &Limits,
+) -> bool {
     let wanted = match settings.cull {
         // Where points were named, they are set up as the papers do it.
         Cull::Auto => settings.rasterizer == Rasterizer::Auto && limits.is_cpu && !are_few(splats, settings),
@@ -38,7 +43,7 @@ pub(crate) fn lists_primitives(splats: &[Draw<'_>], settings: &Settings, limits:
     let wanted = wanted || has_levels && Primitive::of(settings.rasterizer) == Primitive::Point;
     wanted
         && !splats.iter().any(|draw| draw.chunk.transparent)
-        && (has_levels || may_leave_out(splats) || settings.cull == Cull::Hidden)
+        && (has_levels || leaves_out || settings.cull == Cull::Hidden)
         && list_has_room(blocks_of(splats), limits)
         && splats.iter().all(|draw| draw.chunk.count <= MOST_INDICES)
 }

@@ -13,6 +13,7 @@ use crate::passes::{
     pipeline::tile_layouts::STORAGE_BUFFERS,
     plan::{
         SplatMethod,
+        ahead::Ahead,
         bands::Band,
         block_list::ListedBlocks,
         blocks::walk::Closer,
@@ -31,9 +32,9 @@ use crate::{
 };
 
 /// The reason for a choice, or against one, as a part of a sentence.
-type Reason = &'static str;
+pub(super) type Reason = &'static str;
 
-/// Bands of tiles for these splats, and why they are drawn so. `polygons`: there are some beside them.
+/// Bands of tiles for these splats, and why they are drawn so. `polygons`: there are some beside them. `ahead`: those that there may be of a frame that is not drawn.
 ///
 /// On CPU drivers tiles take a quarter to a fifth of the time of points, from 154 thousand splats to 5 million, and two fifths with
 /// ten thousand; with some hundred opaque ones, which are large, points are as fast, so that few keep their few passes and no lists
@@ -46,11 +47,14 @@ pub(crate) fn tiles<'a>(
     arena: &'a Arena,
     splats: &[Draw<'a>],
     polygons: bool,
-    settings: &Settings,
-    limits: &Limits,
+    (settings, limits): (&Settings, &Limits),
+    ahead: Option<Ahead>,
 ) -> std::result::Result<(&'a [Band<'a>], Reason), Reason> {
     let transparent = splats.iter().any(|draw| draw.chunk.transparent);
     let few = !polygons && !transparent && are_few(splats, settings);
+    if let Some(ahead) = ahead {
+        return ahead.bands(arena, splats, (polygons, transparent, few), settings, limits);
+    }
     let reason = wants_tiles(few, settings, limits)?;
     if polygons && transparent {
         return Err("there are polygons in the same layers");
@@ -64,13 +68,17 @@ pub(crate) fn primitives<'a>(
     arena: &'a Arena,
     splats: &mut ArenaVec<'a, Draw<'a>>,
     polygons: bool,
-    settings: &Settings,
-    limits: &Limits,
+    (settings, limits): (&Settings, &Limits),
+    ahead: Option<Ahead>,
 ) -> SplatMethod<'a> {
     let half_sums = settings.accumulate == Accumulate::F16 && settings.weighs_splats();
     splats.iter_mut().for_each(|draw| draw.half_sums = half_sums);
     with_hard_steps(splats);
-    if !culling::lists_primitives(splats, settings, limits) {
+    if let Some(ahead) = ahead {
+        splats.iter_mut().for_each(|draw| draw.may_be_large = ahead.may_be_large(settings));
+    }
+    let leaves_out = ahead.map_or_else(|| culling::may_leave_out(splats), |ahead| ahead.listed);
+    if !culling::lists_primitives(splats, leaves_out, settings, limits) {
         without_levels(splats);
         culling::number_splats(splats);
         return SplatMethod::default();
@@ -182,7 +190,11 @@ fn bands<'a>(
     }
 }
 
-fn wants_tiles(few: bool, settings: &Settings, limits: &Limits) -> std::result::Result<Reason, Reason> {
+pub(super) fn wants_tiles(
+    few: bool,
+    settings: &Settings,
+    limits: &Limits,
+) -> std::result::Result<Reason, Reason> {
     match settings.rasterizer {
         Rasterizer::Compute => can_do_tiles(settings, limits).map(|()| "asked for"),
         Rasterizer::Auto if settings.covers_in_part() => {

@@ -1,6 +1,7 @@
 //! The plan of a frame: what scene, camera, settings and device decide about it, decided here, once. Whatever records a frame,
 //! sizes its pools or explains it reads the plan.
 
+pub(crate) mod ahead;
 pub(crate) mod bands;
 pub(crate) mod block_list;
 pub(crate) mod blocks;
@@ -8,6 +9,7 @@ pub(crate) mod budget;
 pub(crate) mod culling;
 pub(crate) mod digits;
 pub(crate) mod draws;
+pub(crate) mod edges;
 pub(crate) mod few;
 pub(crate) mod frame_constants;
 pub(crate) mod in_view;
@@ -26,8 +28,8 @@ pub(crate) mod sums;
 pub(crate) mod tiles;
 pub(crate) mod words;
 
-use crate::passes::pipeline::variant::culls;
 use crate::passes::plan::{
+    ahead::Ahead,
     bands::Band,
     block_list::ListedBlocks,
     draws::{Draw, draws},
@@ -39,8 +41,7 @@ use crate::{
     arena::{Arena, ArenaVec},
     inline_vec::InlineVec,
     prepare::Placed,
-    scene::{Accumulate, Camera, Edges, MOST_PLANES, Rasterizer, Settings, Transition},
-    shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_SHARP, SPEC_TWO_SIDED},
+    scene::{Accumulate, Camera, MOST_PLANES, Rasterizer, Settings, Transition},
     vk::Limits,
 };
 
@@ -107,7 +108,21 @@ impl<'a> FramePlan<'a> {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let settings = &*budget::within_budget(arena, scenes, camera, settings);
+        Self::of(arena, scenes, camera, (settings, limits), None)
+    }
+
+    /// The same; `ahead`: as a frame may become that shows them from elsewhere, and is not drawn.
+    pub(crate) fn of(
+        arena: &'a Arena,
+        scenes: &[Placed<'a>],
+        camera: &Camera,
+        (settings, limits): (&Settings, &Limits),
+        ahead: Option<Ahead>,
+    ) -> Self {
+        let settings = &*match ahead {
+            None => budget::within_budget(arena, scenes, camera, settings),
+            Some(ahead) => ahead.settings(settings),
+        };
         let range = DepthRange::of(scenes, camera);
         let camera = &range.begin(camera);
         let lights = lights::shader_lights(arena, scenes, camera);
@@ -122,7 +137,7 @@ impl<'a> FramePlan<'a> {
                 meshes.extend(own.map(|draw| MeshDraw { placed: number, ..draw }));
             }
             let lights = transparent.then_some(lights.len() as u32);
-            SurfacePlan::new(arena, (splats, meshes), lights, settings, limits)
+            SurfacePlan::new(arena, (splats, meshes), lights, (settings, limits), ahead)
         };
         let (opaque, transparent) = (surface(false), surface(true));
         let planes = planes::shader_planes((camera, range), settings);
@@ -140,27 +155,31 @@ impl<'a> SurfacePlan<'a> {
         arena: &'a Arena,
         (splats, meshes): Things<'a>,
         lights: Option<u32>,
-        settings: &Settings,
-        limits: &Limits,
+        how: (&Settings, &Limits),
+        ahead: Option<Ahead>,
     ) -> Self {
-        if meshes.iter().any(MeshDraw::is_all_splats) {
+        let is_all_splats = |draw: &MeshDraw<'_>| match ahead {
+            None => draw.is_all_splats(),
+            Some(ahead) => ahead.without_cells && draw.levels.is_some(),
+        };
+        if meshes.iter().any(is_all_splats) {
             let (mut same, mut others) = (arena.growing(), arena.growing());
             same.extend_from_slice_copy(&splats);
-            others.extend(meshes.iter().filter(|draw| !draw.is_all_splats()).copied());
-            let plan = Self::of(arena, (same, others), lights, settings, limits);
+            others.extend(meshes.iter().filter(|draw| !is_all_splats(draw)).copied());
+            let plan = Self::of(arena, (same, others), lights, how, ahead);
             if plan.chooses_levels() {
                 return plan;
             }
         }
-        Self::of(arena, (splats, meshes), lights, settings, limits)
+        Self::of(arena, (splats, meshes), lights, how, ahead)
     }
 
     fn of(
         arena: &'a Arena,
         (mut splats, mut meshes): Things<'a>,
         lights: Option<u32>,
-        settings: &Settings,
-        limits: &Limits,
+        (settings, limits): (&Settings, &Limits),
+        ahead: Option<Ahead>,
     ) -> Self {
         let (accumulate, mut sums) = sums::sums(settings, limits);
         // Behind the splats; what chooses cells counts them by itself.
@@ -177,7 +196,7 @@ impl<'a> SurfacePlan<'a> {
         }
         let polygons = !meshes.is_empty();
         let transparent = lights.is_some();
-        let tiles = method::tiles(arena, &splats, polygons, &settings, limits);
+        let tiles = method::tiles(arena, &splats, polygons, (&settings, limits), ahead);
         // Tiles weigh splats without floors, also where they leave sums in images to others; layers do where all are tiles.
         let exact = settings.rasterizer == Rasterizer::Compute || tiles.is_ok() && !transparent;
         if exact && settings.weighs_splats() {
@@ -185,7 +204,9 @@ impl<'a> SurfacePlan<'a> {
         }
         let (method, reason) = match tiles {
             Ok((bands, reason)) => (SplatMethod::Tiles(bands), reason),
-            Err(reason) => (method::primitives(arena, &mut splats, polygons, &settings, limits), reason),
+            Err(reason) => {
+                (method::primitives(arena, &mut splats, polygons, (&settings, limits), ahead), reason)
+            }
         };
         let drawn = match &method {
             SplatMethod::Tiles(bands) => bands.first().map_or(&splats[..], |band| band.splats),
@@ -199,38 +220,6 @@ impl<'a> SurfacePlan<'a> {
         let mut plan = Self { splats, meshes, method, reason, settings, sums };
         plan.finish_bands(arena, lights);
         plan
-    }
-
-    /// Tiles that shade what they sum cover pixels in part where surfaces end; what leaves sums does not. Those of layers do it under so many lights.
-    fn finish_bands(&mut self, arena: &'a Arena, lights: Option<u32>) {
-        let transparent = lights.is_some();
-        let shades = !self.bands().is_empty() && (transparent || self.tiles_can_shade(&self.settings));
-        let coverage = shades && self.settings.covers_in_part();
-        if !coverage {
-            if !self.bands().is_empty() && self.settings.covers_in_part() {
-                self.reason = NOT_IN_PART;
-            }
-            self.settings.edges = Edges::Hard;
-        }
-        if !coverage && !transparent {
-            return;
-        }
-        let two_sided = coverage && !transparent && self.splats.iter().any(|draw| !culls(&draw.variant));
-        let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());
-        let most_layers = self.settings.layers.most();
-        let SplatMethod::Tiles(bands) = &mut self.method else { return };
-        let of_band = |band: &Band<'a>| {
-            let splats = match coverage {
-                true => arena.list(band.splats.iter().map(|draw| with_edges(*draw, two_sided))),
-                false => band.splats,
-            };
-            let plan = match lights {
-                None => band.plan.clone().with_edges(two_sided, blended),
-                Some(lights) => band.plan.clone().with_layers(most_layers, lights),
-            };
-            Band { splats, plan, ..*band }
-        };
-        *bands = arena.list(bands.iter().map(of_band));
     }
 
     /// Whether levels of detail are chosen; else things are drawn as they are, and hybrids as polygons.
@@ -278,23 +267,4 @@ impl<'a> SurfacePlan<'a> {
     pub fn is_empty(&self) -> bool {
         self.splats.is_empty() && self.meshes.is_empty()
     }
-}
-
-/// Why surfaces do not cover pixels in part that tiles draw.
-const NOT_IN_PART: &str = "edges are hard, since some splats are too large, or too many, to cover pixels in part: --samples 8 smooths them";
-
-/// A chunk of splats whose surface covers pixels in part where it ends.
-fn with_edges(mut draw: Draw<'_>, two_sided: bool) -> Draw<'_> {
-    draw.variant.push((SPEC_COVERAGE_EDGES, 1));
-    if draw.chunk.is_sharp {
-        draw.variant.push((SPEC_SHARP, 1));
-    }
-    if two_sided {
-        draw.variant.push((SPEC_TWO_SIDED, 1));
-        // Surfaces are of one side: how near the other one is does not matter. Of sharp ones it is not that alone.
-        if !draw.chunk.is_sharp {
-            draw.variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
-        }
-    }
-    draw
 }

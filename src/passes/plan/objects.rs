@@ -1,6 +1,8 @@
 //! What is drawn once more to find whose the visible surface is.
 
-use crate::passes::plan::{FramePlan, SplatMethod, SurfacePlan, draws::Draw, mesh_draws::MeshDraw, method};
+use crate::passes::plan::{
+    FramePlan, SplatMethod, SurfacePlan, ahead::Ahead, draws::Draw, mesh_draws::MeshDraw, method,
+};
 use crate::{
     arena::Arena,
     scene::{Edges, Settings},
@@ -9,22 +11,22 @@ use crate::{
 
 impl<'a> FramePlan<'a> {
     /// The same frame, of whose opaque surface it is found whose it is.
-    pub(crate) fn with_objects(mut self, arena: &'a Arena, limits: &Limits) -> Self {
-        self.objects = (!self.opaque.is_empty()).then(|| self.opaque.for_objects(arena, limits));
+    pub(crate) fn with_objects(mut self, arena: &'a Arena, limits: &Limits, ahead: Option<Ahead>) -> Self {
+        self.objects = (!self.opaque.is_empty()).then(|| self.opaque.for_objects(arena, limits, ahead));
         self
     }
 }
 
 impl<'a> SurfacePlan<'a> {
     /// The same things by the graphics pipeline, whatever draws them, as splats and whole polygons. They have numbers from 0 on, splats first.
-    fn for_objects(&self, arena: &'a Arena, limits: &Limits) -> Self {
+    fn for_objects(&self, arena: &'a Arena, limits: &Limits, ahead: Option<Ahead>) -> Self {
         let settings = Settings { edges: Edges::Hard, ..self.settings.clone() };
         let (mut splats, mut meshes) = (arena.growing(), arena.growing());
         splats.extend_from_slice_copy(self.splats);
         meshes.extend_from_slice_copy(self.meshes);
         let method = match splats.is_empty() {
             true => SplatMethod::default(),
-            false => method::primitives(arena, &mut splats, !meshes.is_empty(), &settings, limits),
+            false => method::primitives(arena, &mut splats, !meshes.is_empty(), (&settings, limits), ahead),
         };
         splats.iter_mut().for_each(|draw: &mut Draw<'_>| draw.half_sums = false);
         for (draw, number) in meshes.iter_mut().zip(splats.len() as u32..) {

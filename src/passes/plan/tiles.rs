@@ -41,13 +41,6 @@ const MOST_OF_MANY: u64 = 64;
 /// The bytes of a quarter of a record, each quarter in a buffer of its own.
 pub(crate) const RECORD_BYTES: u64 = 16;
 
-/// This number or one that is less by a third at most. A pipeline is told it: were it any, a camera that moves would have pipelines without
-/// end.
-fn one_of_few(number: u64) -> u64 {
-    let below = number.max(1).ilog2().saturating_sub(1);
-    number >> below << below
-}
-
 /// Four quarters and a rect; an index, a bit, and a 32nd of a count.
 fn bytes_of_records(records: u64) -> u64 {
     records * (4 * RECORD_BYTES + 4) + records * 4 + records / 4
@@ -180,8 +173,8 @@ impl TilePlan {
         // As many as there is room for if all have them; or as they have, where there is room for all.
         let most_tiles = match fits {
             true => of_largest,
-            false if entries(most_of_all) <= room => one_of_few(most_of_all.min(of_largest)),
-            false => one_of_few(most_of_all.min(room / records)),
+            false if entries(most_of_all) <= room => most_of_all.min(of_largest),
+            false => most_of_all.min(room / records),
         };
         let entry_room = entries(most_tiles);
         let most_tiles = most_tiles as u32;
@@ -232,12 +225,6 @@ impl TilePlan {
     /// `two_sided`: some splats that face away are drawn. `blended`: levels of detail blend into each other.
     pub(crate) fn with_edges(self, two_sided: bool, blended: bool) -> Self {
         Self { hidden: false, two_sided, blended, ..self }
-    }
-
-    /// Tiles that a splat touches at most, as the pipeline is told that projects splats: one of few numbers.
-    pub(crate) fn told_most_tiles(&self) -> u32 {
-        // Where it is known of all splats, nothing depends on it.
-        if self.may_be_large { self.most_tiles } else { most_tiles_a_side(self.place_bits).pow(2) }
     }
 
     /// The bins of all lists: of tiles, then of chunks.

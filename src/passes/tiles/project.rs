@@ -26,7 +26,6 @@ use crate::{
 fn key(variant: &Constants, plan: &TilePlan, listed: bool) -> ComputeKey {
     let constants = variant.with([
         (SPEC_PLACE_BITS, plan.place_bits),
-        (SPEC_MOST_TILES, plan.told_most_tiles()),
         (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
         (SPEC_LISTED, u32::from(listed)),
         (SPEC_MAY_BE_LARGE, u32::from(plan.may_be_large)),
@@ -65,13 +64,14 @@ pub(crate) fn project<'a>(
     };
     let of = |draw: &Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));
     let pipelines = by_variant(pass.arena(), inputs.draws, of)?;
+    let most_tiles = tiles.plan.most_tiles;
     pass.finish(move |pass| {
         let set = pass.set(Place::Tiles(0))?;
         // Chunks write places of their own.
         for (number, (draw, pipeline)) in inputs.draws.iter().zip(pipelines.iter().copied()).enumerate() {
             pass.bind(pipeline);
             pass.bind_sets(pipeline.layout, 0, &[draw.chunk.set(), set])?;
-            pass.push(pipeline.layout, &draw.constants)?;
+            pass.push(pipeline.layout, &draw.constants.with_most_tiles(most_tiles))?;
             match pass.has(VISIBLE_ARGUMENTS) {
                 true => dispatch_visible(pass, number)?,
                 false => pass.dispatch(rows_of(draw.chunk.count.div_ceil(PROJECT_GROUP_SIZE))),

@@ -2,8 +2,8 @@ use glam::Vec3;
 
 use super::*;
 use crate::{
-    prepare::{CHILDREN, block_tree::above, prepare_without_device},
-    scene::{Colors, Object, Order, Scene, SplatFormat, Storage},
+    prepare::{BlockTree, CHILDREN, block_tree::above, prepare_without_device},
+    scene::{Colors, Object, Order, Scene, Shapes, SplatFormat, Storage},
     vk::Limits,
 };
 
@@ -43,7 +43,9 @@ fn bounds_are_those_of_what_is_there_whatever_the_order() {
         let mut prepared = prepare_without_device(&Limits::plain(), &own).unwrap();
         let before = prepared.chunks[0].blocks.clone();
         let (whole, part) = changed(1000);
-        assert!(prepared.update(None, 0, 300, &part).unwrap().is_none());
+        let update = prepared.update(None, 0, 300, &part).unwrap();
+        assert!(update.bytes() >= 340 * 40);
+        update.apply(None);
         let chunk = &prepared.chunks[0];
         let shadow = chunk.shadow.as_ref().unwrap();
         let survey = chunk.packing();
@@ -87,10 +89,26 @@ fn bounds_are_those_of_what_is_there_whatever_the_order() {
         assert!(count == 1000 && chunk.radii.last().unwrap().radius >= largest);
         // And back: all is as it was.
         let back = disks(340, |i| spiral(i + 300), |_| 0.05);
-        prepared.update(None, 0, 300, &back).unwrap();
+        prepared.update(None, 0, 300, &back).unwrap().apply(None);
         for (block, before) in prepared.chunks[0].blocks.iter().zip(before) {
             assert_eq!((block.center, block.radius, block.axis), (before.center, before.radius, before.axis));
         }
+    }
+}
+
+/// Of many blocks, of which few change, all that is above them, too, is what is made of them anew.
+#[test]
+fn what_is_above_the_blocks_is_that_of_the_blocks_that_are_there() {
+    let mut prepared =
+        prepare_without_device(&Limits::plain(), &scene(disks(50_000, spiral, |_| 0.05))).unwrap();
+    for first in [0, 20_123, 49_500] {
+        let part = disks(500, |i| (2.0 + 0.01 * i as f64) * spiral(i + first), |i| 0.01 * (i + 1) as f32);
+        let before = format!("{:?}", prepared.chunks[0].tree);
+        prepared.update(None, 0, first as u32, &part).unwrap().apply(None);
+        let chunk = &prepared.chunks[0];
+        assert!(chunk.tree.levels.len() > 2, "{}", chunk.tree.levels.len());
+        let renewed = format!("{:?}", chunk.tree);
+        assert!(renewed != before && renewed == format!("{:?}", BlockTree::new(&chunk.blocks)), "{first}");
     }
 }
 
@@ -137,7 +155,7 @@ fn what_is_no_update_is_refused_and_changes_nothing() {
     wrong.positions[4].x = 1e30;
     assert!(refused(0, 100, &wrong).contains("splat 104: it lies"), "{}", refused(0, 100, &wrong));
     assert_eq!(prepared.chunks[0].bounds, before);
-    prepared.update(None, 0, 100, &part).unwrap();
+    prepared.update(None, 0, 100, &part).unwrap().apply(None);
     assert_ne!(prepared.chunks[0].bounds, before);
 
     let mut plain = scene(disks(1000, spiral, |_| 0.05));

@@ -41,6 +41,11 @@ impl OfEngine {
         })
     }
 
+    /// Answers so many requests more, or all.
+    pub fn answer(&self, most: Option<u32>) {
+        self.left.store(most.unwrap_or(ALL), Relaxed);
+    }
+
     /// How many times it was asked.
     pub fn asked(&self) -> usize {
         self.asked.load(Relaxed)
@@ -114,14 +119,14 @@ fn all_memory_is_the_engines_and_what_it_refuses_is_an_error_after_which_the_nex
     assert_eq!(finish(), kept);
     assert!(asked > 4, "{asked}");
     for answered in 0..asked {
-        memory.left.store(answered as u32, Relaxed);
+        memory.answer(Some(answered as u32));
         let error = frame(&engine, &renderer).map(drop).unwrap_err();
         let ErrorKind::Memory { object, bytes, reason } = error.kind() else { panic!("{error}") };
         assert!(
             !object.is_empty() && *bytes > 0 && reason.contains("the host's allocator answered"),
             "{error}"
         );
-        memory.left.store(ALL, Relaxed);
+        memory.answer(None);
         assert_eq!(finish(), kept, "{answered}: {error}");
         drop(frame(&engine, &renderer).unwrap());
         assert_eq!(finish(), kept, "{answered}: {error}");

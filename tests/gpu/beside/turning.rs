@@ -1,4 +1,4 @@
-//! Frames that differ in what is seen, and in size: once each has been drawn, none takes memory of the device any more.
+//! Frames that differ in what is seen, and in size: once each has been drawn, none takes memory of the device any more, nor of the heap.
 
 use glam::{
     DVec3,
@@ -43,8 +43,8 @@ fn around(balls: &[PreparedScene; 2]) -> Vec<Placed<'_>> {
 }
 
 #[test]
-fn a_camera_that_turns_takes_no_memory_of_the_device_after_its_first_turn() {
-    for validates in [true, false] {
+fn a_camera_that_turns_takes_nothing_from_the_device_and_the_heap_after_its_first_turn() {
+    for (validates, large_first) in [(true, true), (false, true), (false, false)] {
         crate::common::arm();
         let engine = Engine::new(Style { validates, ..REVERSED });
         let memory = OfEngine::new(&engine);
@@ -60,13 +60,11 @@ fn a_camera_that_turns_takes_no_memory_of_the_device_after_its_first_turn() {
         let placed = around(&balls);
         let turns = [(); 3].map(|()| {
             let asked = memory.asked();
-            let taken = turn(&mut beside, &placed);
+            let taken = turn(&mut beside, &placed, large_first);
             (memory.asked() - asked, taken)
         });
         println!("of each turn, pieces of device memory and of the heap: {turns:?}");
-        assert!(turns[0].0 > 0 && turns[1].0 == 0 && turns[2].0 == 0, "{turns:?}");
-        // Most frames find their plans.
-        assert!(turns[2].1 < turns[0].1 / 4, "{turns:?}");
+        assert!(turns[0].0 > 0 && turns[0].1 > 0 && turns[1..] == [(0, 0); 2], "{turns:?}");
         drop(placed);
         drop(balls);
         beside.end();
@@ -74,11 +72,15 @@ fn a_camera_that_turns_takes_no_memory_of_the_device_after_its_first_turn() {
 }
 
 /// Draws all of a turn. How often it takes something from the heap.
-fn turn(beside: &mut Beside, placed: &[Placed<'_>]) -> usize {
+fn turn(beside: &mut Beside, placed: &[Placed<'_>], large_first: bool) -> usize {
     let mut taken = 0;
+    let mut sizes_px = SIZES_PX;
+    if !large_first {
+        sizes_px.reverse();
+    }
     for step in 0..STEPS {
         let camera = looking(std::f64::consts::TAU * step as f64 / STEPS as f64);
-        for size_px in SIZES_PX {
+        for size_px in sizes_px {
             let settings = Settings { size_px, layers: Layers::Fixed(2), ..Settings::default() };
             let hides = Some(beside.hides());
             let frame = ViewFrame { hides, ..ViewFrame::new(placed, &camera, &settings) };

@@ -93,7 +93,7 @@ impl TilePlan {
         plan.when_drawn(draws, culls_hidden, limits)
     }
 
-    fn when_drawn(self, draws: &[Draw<'_>], culls_hidden: bool, limits: &Limits) -> Option<Self> {
+    pub(crate) fn when_drawn(self, draws: &[Draw<'_>], culls_hidden: bool, limits: &Limits) -> Option<Self> {
         let plan = match draws.iter().any(|draw| draw.chunk.clipped) {
             true => self.with_clips(limits)?,
             false => self,

@@ -179,21 +179,3 @@ fn bands_agree_on_what_they_have_in_common() {
         }
     }
 }
-
-#[test]
-fn views_have_few_pipelines_between_them() {
-    let mut told = std::collections::HashSet::new();
-    for count in (1_000..2_000_000).step_by(7_919) {
-        for px in (1..60).map(f64::from).chain([300.0, f64::INFINITY]) {
-            let plan = plan(&[(count, px), (count / 9, 3.0 * px)], [1024, 1024]).unwrap();
-            assert!(plan.told_most_tiles() >= plan.most_tiles, "{plan:?}");
-            told.insert((plan.may_be_large, plan.told_most_tiles()));
-        }
-    }
-    // Two a power of two, up to 128 by 128, and one.
-    assert!(told.len() <= 28, "{told:?}");
-    assert_eq!(
-        [1, 2, 3, 4, 5, 7, 8, 95, 96, 127, 2304].map(one_of_few),
-        [1, 2, 3, 4, 4, 6, 8, 64, 96, 96, 2048]
-    );
-}

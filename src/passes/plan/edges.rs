@@ -1,0 +1,64 @@
+//! Which surfaces cover pixels in part where they end.
+
+use crate::passes::{
+    pipeline::variant::culls,
+    plan::{SplatMethod, SurfacePlan, bands::Band, draws::Draw},
+};
+use crate::{
+    arena::Arena,
+    scene::Edges,
+    shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_SHARP, SPEC_TWO_SIDED},
+};
+
+impl<'a> SurfacePlan<'a> {
+    /// Tiles that shade what they sum cover pixels in part where surfaces end; what leaves sums does not. Those of layers do it under so many lights.
+    pub(super) fn finish_bands(&mut self, arena: &'a Arena, lights: Option<u32>) {
+        let transparent = lights.is_some();
+        let shades = !self.bands().is_empty() && (transparent || self.tiles_can_shade(&self.settings));
+        let coverage = shades && self.settings.covers_in_part();
+        if !coverage {
+            if !self.bands().is_empty() && self.settings.covers_in_part() {
+                self.reason = NOT_IN_PART;
+            }
+            self.settings.edges = Edges::Hard;
+        }
+        if !coverage && !transparent {
+            return;
+        }
+        let two_sided = coverage && !transparent && self.splats.iter().any(|draw| !culls(&draw.variant));
+        let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());
+        let most_layers = self.settings.layers.most();
+        let SplatMethod::Tiles(bands) = &mut self.method else { return };
+        let of_band = |band: &Band<'a>| {
+            let splats = match coverage {
+                true => arena.list(band.splats.iter().map(|draw| with_edges(*draw, two_sided))),
+                false => band.splats,
+            };
+            let plan = match lights {
+                None => band.plan.clone().with_edges(two_sided, blended),
+                Some(lights) => band.plan.clone().with_layers(most_layers, lights),
+            };
+            Band { splats, plan, ..*band }
+        };
+        *bands = arena.list(bands.iter().map(of_band));
+    }
+}
+
+/// Why surfaces do not cover pixels in part that tiles draw.
+const NOT_IN_PART: &str = "edges are hard, since some splats are too large, or too many, to cover pixels in part: --samples 8 smooths them";
+
+/// A chunk of splats whose surface covers pixels in part where it ends.
+fn with_edges(mut draw: Draw<'_>, two_sided: bool) -> Draw<'_> {
+    draw.variant.push((SPEC_COVERAGE_EDGES, 1));
+    if draw.chunk.is_sharp {
+        draw.variant.push((SPEC_SHARP, 1));
+    }
+    if two_sided {
+        draw.variant.push((SPEC_TWO_SIDED, 1));
+        // Surfaces are of one side: how near the other one is does not matter. Of sharp ones it is not that alone.
+        if !draw.chunk.is_sharp {
+            draw.variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
+        }
+    }
+    draw
+}
