@@ -1,12 +1,13 @@
 //! Points become splats: normals and radii that the file does not have, from the points nearby.
 //!
-//! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`], or the one of their [`sheets`] that it lies on, or that between scan [`lines`],
+//! The steps, each a file: points at one place, or in [`clumps`] about one, [`merge`]; each finds its neighbors and their [`plane`], or the one of their [`sheets`] that it lies on, or that between scan [`lines`],
 //! or of coarser [`patches`] where there is [`noise`]; normals are turned to one side ([`orient`]); isolated points are left out ([`outliers`], [`strays`]); disks [`reach`] as far as
 //! closes the surface ([`radii`]). All of it is the same whatever the number of threads.
 //!
 //! Splats are round: ellipses take half as much memory again (48 bytes on the device instead of 32), and gain only where points lie much denser along one direction than across.
 
 mod around;
+mod clumps;
 mod fit;
 mod lines;
 mod merge;
@@ -53,6 +54,15 @@ pub fn splats_from_points(points: Points, progress: &dyn Progress) -> (Splats, C
     let Merged { points, duplicates, not_finite } = merge(points);
     (report.duplicates, report.not_finite) = (duplicates, not_finite);
     let mut cloud = Cloud::new(&points);
+    let points = match clumps::first_of_clumps(&cloud.tree) {
+        None => points,
+        Some(first) => {
+            let merged = merge(at_places_of(points, &first));
+            report.duplicates += merged.duplicates;
+            cloud = Cloud::new(&merged.points);
+            merged.points
+        }
+    };
     let steps = Steps { progress, passes: 2 };
     cloud.find_planes(&points, &steps, &mut report);
     report.around_scanner = report.sides == Sides::TowardScanner && around::surround_scanners(&points);
@@ -78,6 +88,12 @@ pub fn splats_from_points(points: Points, progress: &dyn Progress) -> (Splats, C
         splats.keep(&keep);
     }
     (splats, report)
+}
+
+/// Each point at the place of another.
+fn at_places_of(mut points: Points, others: &[u32]) -> Points {
+    points.positions = others.iter().map(|other| points.positions[*other as usize]).collect();
+    points
 }
 
 /// Tells of two passes over all points as one task.

@@ -1,3 +1,4 @@
+mod clumps;
 mod few;
 mod given;
 mod lines;
