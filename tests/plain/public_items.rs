@@ -103,6 +103,8 @@ const INSIDE: &[&str] = &[
     "Plan",
     "Readbacks",
     "Refinements",
+    "SceneFrame",
+    "Seen",
     "Shaders",
     "Stage",
     "Staging",
