@@ -101,7 +101,6 @@ const INSIDE: &[&str] = &[
     "OptionValue",
     "PickPlan",
     "Plan",
-    "Readbacks",
     "Refinements",
     "SceneFrame",
     "Seen",
@@ -109,7 +108,6 @@ const INSIDE: &[&str] = &[
     "Stage",
     "Staging",
     "Surface",
-    "Target",
     "ViewFromWorld",
 ];
 
