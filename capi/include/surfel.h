@@ -202,6 +202,14 @@ enum SurfelStructureType
    * `SurfelHostImage`.
    */
   SURFEL_STRUCTURE_TYPE_HOST_IMAGE = 11,
+  /**
+   * `SurfelMemoryRequest`.
+   */
+  SURFEL_STRUCTURE_TYPE_MEMORY_REQUEST = 12,
+  /**
+   * `SurfelMemory`.
+   */
+  SURFEL_STRUCTURE_TYPE_MEMORY = 13,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -306,6 +314,117 @@ typedef struct SurfelRequirements {
 } SurfelRequirements;
 
 /**
+ * What is asked of a host's allocator: a struct that the library fills, of which a later one may have more behind.
+ */
+typedef struct SurfelMemoryRequest {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_MEMORY_REQUEST`.
+   */
+  uint32_t sType;
+  /**
+   * Its size in the library.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * For what, in words; valid during the call.
+   */
+  const char *name;
+  /**
+   * How many bytes.
+   */
+  uint64_t bytes;
+  /**
+   * Of its offset.
+   */
+  uint64_t alignment;
+  /**
+   * A bit for each type of memory that will do, as in `VkMemoryRequirements`.
+   */
+  uint32_t memoryTypeBits;
+  /**
+   * For buffers; else for images of optimal tiling, of which `bufferImageGranularity` has to be kept.
+   */
+  VkBool32 linear;
+  /**
+   * The host's processor writes there: it must be mapped, and coherent.
+   */
+  VkBool32 writtenByHost;
+  /**
+   * The host's processor reads there: it must be mapped, and coherent.
+   */
+  VkBool32 readByHost;
+} SurfelMemoryRequest;
+
+/**
+ * A piece of a host's device memory.
+ */
+typedef struct SurfelAllocation {
+  /**
+   * The memory object.
+   */
+  VkDeviceMemory memory;
+  /**
+   * Where in it, in bytes.
+   */
+  uint64_t offset;
+  /**
+   * Where the host's processor sees the first byte, of what it touches; else NULL.
+   */
+  void *mapped;
+  /**
+   * Whatever the host knows it by.
+   */
+  uint64_t token;
+} SurfelAllocation;
+
+/**
+ * Gives memory and answers `VK_SUCCESS`, or why there is none: `VK_ERROR_OUT_OF_DEVICE_MEMORY` where a budget is used up. Then what needed it
+ * fails with `SURFEL_RESULT_OUT_OF_MEMORY`, and is asked for again when a frame needs it next. `allocation` is zero before. Must return.
+ */
+typedef VkResult (*SurfelAllocate)(void *user, const struct SurfelMemoryRequest *request, struct SurfelAllocation *allocation);
+
+/**
+ * Takes a piece back: nothing of the device's uses it any more. Must return.
+ */
+typedef void (*SurfelFree)(void *user, const struct SurfelAllocation *allocation);
+
+/**
+ * A host's allocator. It is asked from whichever thread uses a renderer or a view, by one at a time, and must not call surfel back. What it gives is memory of the
+ * device, of a type among those asked for, aligned and as large as asked, used by nobody else until it is given back. It must live until
+ * all that was made from the device is destroyed and its last epoch is done.
+ */
+typedef struct SurfelMemory {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_MEMORY`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelMemory)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * What both functions are given first; may be NULL.
+   */
+  void *user;
+  /**
+   * Gives memory.
+   */
+  SurfelAllocate allocate;
+  /**
+   * Takes it back.
+   */
+  SurfelFree free;
+} SurfelMemory;
+
+/**
  * A device that a host lends.
  */
 typedef struct SurfelImport {
@@ -349,6 +468,10 @@ typedef struct SurfelImport {
    * Whether `VK_EXT_debug_utils` is enabled: then all of our objects have names, and our passes labels.
    */
   VkBool32 debugUtils;
+  /**
+   * The host's allocator, which all device memory is then taken from; NULL: it is taken from the device, in blocks of 8 to 16 MiB.
+   */
+  const struct SurfelMemory *memory;
 } SurfelImport;
 
 /**
@@ -792,8 +915,7 @@ typedef struct SurfelFrame {
 } SurfelFrame;
 
 /**
- * An image of the host's that a view is drawn onto: with the format and samples that its rendering has, one layer, one mip level; usage
- * `VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT` or `VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT`; of the family of the queue, or shared with it.
+ * An image of the host's that a view is drawn onto: with the samples that its rendering has, one layer, one mip level.
  */
 typedef struct SurfelHostImage {
   /**
@@ -840,6 +962,41 @@ typedef struct SurfelHostImage {
    * The layout in which it is left.
    */
   VkImageLayout afterLayout;
+  /**
+   * Its format, which is the rendering's: another one is refused. 0 is not looked at.
+   */
+  VkFormat format;
+  /**
+   * What it was created for: without `VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT` or `VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT` it is refused.
+   * 0 is not looked at.
+   */
+  VkImageUsageFlags usage;
+  /**
+   * Its width in pixels: what does not hold the view's area is refused. Where width and height are 0 they are not looked at.
+   */
+  uint32_t width;
+  /**
+   * Its height in pixels.
+   */
+  uint32_t height;
+  /**
+   * `familyBefore` and `familyAfter` count. 0: the image is shared, or the family of the queue has it, and keeps it.
+   */
+  VkBool32 changesFamily;
+  /**
+   * The family of queues that has it before: it is acquired from there, in `beforeLayout`. That family's queue has released it to
+   * `VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL` or `…_DEPTH_STENCIL_ATTACHMENT_OPTIMAL`, and a semaphore orders both. `VK_QUEUE_FAMILY_IGNORED`: ours has it already.
+   */
+  uint32_t familyBefore;
+  /**
+   * The family that it is released to, from that layout to `afterLayout`, which acquires it then.
+   * `VK_QUEUE_FAMILY_IGNORED`: it stays with ours.
+   */
+  uint32_t familyAfter;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reserved;
 } SurfelHostImage;
 
 /**

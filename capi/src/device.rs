@@ -9,6 +9,7 @@ use surfel::{
 
 use crate::{
     handle::{Out, Place, destroy, get, null},
+    memory::{SurfelMemory, memory_of},
     requirements::{PFN_vkGetInstanceProcAddr, check_features, features_of, load_device, load_instance},
     result::{SurfelResult, guard},
     structs::{Struct, SurfelStructureType, read},
@@ -41,6 +42,8 @@ pub struct SurfelImport {
     pub queue_family: u32,
     /// Whether `VK_EXT_debug_utils` is enabled: then all of our objects have names, and our passes labels.
     pub debug_utils: vk::Bool32,
+    /// The host's allocator, which all device memory is then taken from; NULL: it is taken from the device, in blocks of 8 to 16 MiB.
+    pub memory: *const SurfelMemory,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -74,7 +77,8 @@ pub unsafe extern "C" fn surfel_device_import(
             device: &device,
             queue_family: host.queue_family,
             enabled: features_of(host.features),
-            memory: None,
+            // SAFETY: as above.
+            memory: unsafe { memory_of(host.memory) }?,
         };
         // SAFETY: as above.
         out.give(SurfelDevice(unsafe { Device::import(&import) }?))

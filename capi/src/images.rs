@@ -58,8 +58,7 @@ unsafe impl Struct for SurfelDepthImage {
     }
 }
 
-/// An image of the host's that a view is drawn onto: with the format and samples that its rendering has, one layer, one mip level; usage
-/// `VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT` or `VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT`; of the family of the queue, or shared with it.
+/// An image of the host's that a view is drawn onto: with the samples that its rendering has, one layer, one mip level.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SurfelHostImage {
@@ -85,11 +84,34 @@ pub struct SurfelHostImage {
     pub before_layout: vk::ImageLayout,
     /// The layout in which it is left.
     pub after_layout: vk::ImageLayout,
+    /// Its format, which is the rendering's: another one is refused. 0 is not looked at.
+    pub format: vk::Format,
+    /// What it was created for: without `VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT` or `VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT` it is refused.
+    /// 0 is not looked at.
+    pub usage: vk::ImageUsageFlags,
+    /// Its width in pixels: what does not hold the view's area is refused. Where width and height are 0 they are not looked at.
+    pub width: u32,
+    /// Its height in pixels.
+    pub height: u32,
+    /// `familyBefore` and `familyAfter` count. 0: the image is shared, or the family of the queue has it, and keeps it.
+    pub changes_family: vk::Bool32,
+    /// The family of queues that has it before: it is acquired from there, in `beforeLayout`. That family's queue has released it to
+    /// `VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL` or `…_DEPTH_STENCIL_ATTACHMENT_OPTIMAL`, and a semaphore orders both. `VK_QUEUE_FAMILY_IGNORED`: ours has it already.
+    pub family_before: u32,
+    /// The family that it is released to, from that layout to `afterLayout`, which acquires it then.
+    /// `VK_QUEUE_FAMILY_IGNORED`: it stays with ours.
+    pub family_after: u32,
+    /// 0; else it is refused.
+    pub reserved: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
 unsafe impl Struct for SurfelHostImage {
     const TYPE: SurfelStructureType = SurfelStructureType::HostImage;
+
+    fn reserved(&self) -> u32 {
+        self.reserved
+    }
 }
 
 /// The image that C means; `None` of NULL.
@@ -106,9 +128,15 @@ pub unsafe fn host_image(given: *const SurfelHostImage, name: &str) -> Result<Op
         return Err(null(&format!("{name}: image or view")));
     }
     let state = |stages, access, layout| ImageState { stages, access, layout };
+    let family = |family| if given.changes_family != vk::FALSE { family } else { vk::QUEUE_FAMILY_IGNORED };
     Ok(Some(HostImage {
         image: given.image,
         view: given.view,
+        format: given.format,
+        extent: vk::Extent2D { width: given.width, height: given.height },
+        usage: given.usage,
+        family_before: family(given.family_before),
+        family_after: family(given.family_after),
         before: state(given.before_stages, given.before_access, given.before_layout),
         after: state(given.after_stages, given.after_access, given.after_layout),
     }))

@@ -12,6 +12,8 @@ mod result;
 
 mod requirements;
 
+mod memory;
+
 mod device;
 
 mod scene;

@@ -34,6 +34,10 @@ pub enum SurfelStructureType {
     DynamicSplats = 10,
     /// `SurfelHostImage`.
     HostImage = 11,
+    /// `SurfelMemoryRequest`.
+    MemoryRequest = 12,
+    /// `SurfelMemory`.
+    Memory = 13,
 }
 
 /// No struct is larger in any version: a size beyond is none that a header gave it.

@@ -1,5 +1,7 @@
 //! A view recorded by one call, onto images of a host that has no rendering of its own around it.
 
+use std::fmt;
+
 use ash::vk;
 
 use super::{View, ViewFrame};
@@ -10,29 +12,83 @@ use crate::{
     renderer::Renderer,
 };
 
-/// An image of a host's that a view is drawn onto: with the format and samples that its rendering has, one layer, one mip level; usage `COLOR_ATTACHMENT` or
-/// `DEPTH_STENCIL_ATTACHMENT`; of the family of the queue, or shared with it.
+/// An image of a host's that a view is drawn onto: with the samples that its rendering has, one layer, one mip level.
 #[derive(Clone, Copy, Debug)]
 pub struct HostImage {
     /// The image.
     pub image: vk::Image,
     /// A view of all of it.
     pub view: vk::ImageView,
+    /// Its format, which is the rendering's: another one is refused. `UNDEFINED` is not looked at.
+    pub format: vk::Format,
+    /// Its width and height in pixels: what does not hold the view's area is refused. 0 x 0 is not looked at.
+    pub extent: vk::Extent2D,
+    /// What it was created for: without `COLOR_ATTACHMENT` or `DEPTH_STENCIL_ATTACHMENT` it is refused. Nothing is not looked at.
+    pub usage: vk::ImageUsageFlags,
     /// What was done with it just before: that is waited for. Where the layout is `UNDEFINED` nothing is in it: it is cleared, color to 0, depth to what is farthest.
     pub before: ImageState,
+    /// The family of queues that has it before, where it is not shared: it is acquired from there, in the layout of `before`. That family's queue has released it to ours, to the layout of
+    /// [`ImageState::COLOR_ATTACHMENT`] or [`ImageState::DEPTH_ATTACHMENT`], and a semaphore orders both. `QUEUE_FAMILY_IGNORED`: ours has it already, as where the layout of `before` is `UNDEFINED`.
+    pub family_before: u32,
     /// What will be done with it just after; it is left in that layout.
     pub after: ImageState,
+    /// The family that it is released to, from that layout of ours to that of `after`, which acquires it then. `QUEUE_FAMILY_IGNORED`: it stays with ours.
+    pub family_after: u32,
 }
 
 impl HostImage {
-    /// An image of colors that was, and will be, drawn to by a pass of the host's.
-    pub fn color(image: vk::Image, view: vk::ImageView) -> Self {
-        Self { image, view, before: ImageState::COLOR_ATTACHMENT, after: ImageState::COLOR_ATTACHMENT }
+    /// An image of colors that was, and will be, drawn to by a pass of the host's, and stays with the queue's family.
+    pub fn color(image: vk::Image, view: vk::ImageView, format: vk::Format, extent: vk::Extent2D) -> Self {
+        Self {
+            image,
+            view,
+            format,
+            extent,
+            usage: vk::ImageUsageFlags::COLOR_ATTACHMENT,
+            before: ImageState::COLOR_ATTACHMENT,
+            family_before: vk::QUEUE_FAMILY_IGNORED,
+            after: ImageState::COLOR_ATTACHMENT,
+            family_after: vk::QUEUE_FAMILY_IGNORED,
+        }
     }
 
     /// The same of depth.
-    pub fn depth(image: vk::Image, view: vk::ImageView) -> Self {
-        Self { image, view, before: ImageState::DEPTH_ATTACHMENT, after: ImageState::DEPTH_ATTACHMENT }
+    pub fn depth(image: vk::Image, view: vk::ImageView, format: vk::Format, extent: vk::Extent2D) -> Self {
+        Self {
+            usage: vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            before: ImageState::DEPTH_ATTACHMENT,
+            after: ImageState::DEPTH_ATTACHMENT,
+            ..Self::color(image, view, format, extent)
+        }
+    }
+
+    /// Refuses an image that is not what a rendering draws to, over this area.
+    fn check(
+        &self,
+        name: fmt::Arguments<'_>,
+        (format, usage): (vk::Format, vk::ImageUsageFlags),
+        (corner_px, size_px): ([i32; 2], [u32; 2]),
+    ) -> Result<()> {
+        let refused = |field: &str, problem: String| Err(Error::option(&format!("{name}.{field}"), problem));
+        if self.format != vk::Format::UNDEFINED && self.format != format {
+            return refused(
+                "format",
+                format!("{:?}: expected {format:?}, as the view's rendering has", self.format),
+            );
+        }
+        if !self.usage.is_empty() && !self.usage.contains(usage) {
+            return refused("usage", format!("{:?}: expected {usage:?} among it", self.usage));
+        }
+        let vk::Extent2D { width, height } = self.extent;
+        let holds = |(at, (side, whole)): (&i32, (&u32, u32))| {
+            u64::from(at.unsigned_abs()) + u64::from(*side) <= u64::from(whole)
+        };
+        let sides = size_px.iter().zip([width, height]);
+        if (width, height) != (0, 0) && !corner_px.iter().zip(sides).all(holds) {
+            let ([x, y], [w, h]) = (corner_px, size_px);
+            return refused("extent", format!("{width}x{height}: expected {w}x{h} pixels from {x},{y} on"));
+        }
+        Ok(())
     }
 
     fn attached(
@@ -55,8 +111,8 @@ impl HostImage {
     fn barrier(
         &self,
         aspect: vk::ImageAspectFlags,
-        from: ImageState,
-        to: ImageState,
+        [from, to]: [ImageState; 2],
+        [family_from, family_to]: [u32; 2],
     ) -> vk::ImageMemoryBarrier2<'static> {
         let range = vk::ImageSubresourceRange::default().aspect_mask(aspect).level_count(1).layer_count(1);
         vk::ImageMemoryBarrier2::default()
@@ -66,6 +122,8 @@ impl HostImage {
             .dst_access_mask(to.access)
             .old_layout(from.layout)
             .new_layout(to.layout)
+            .src_queue_family_index(family_from)
+            .dst_queue_family_index(family_to)
             .image(self.image)
             .subresource_range(range)
     }
@@ -79,11 +137,11 @@ impl View {
     /// the view was made for has formats, `None` where one is `UNDEFINED`.
     ///
     /// # Errors
-    /// As [`Self::prepare`]; [`crate::ErrorKind::Option`] for other images than the view's rendering has, before anything is recorded.
+    /// As [`Self::prepare`]; [`crate::ErrorKind::Option`] for other images than the view's rendering has, by the field, before anything is recorded.
     ///
     /// # Safety
-    /// As [`Self::prepare`]. The images are what [`HostImage`] and the rendering say, and in the state that they say; they hold the view's area, and stay alive until the commands have
-    /// run.
+    /// As [`Self::prepare`]. The images are what [`HostImage`] and the rendering say, and in the state and of the family that they say; they hold the view's area, and stay alive until the
+    /// commands have run. Families are the device's, or `QUEUE_FAMILY_EXTERNAL`.
     pub unsafe fn record(
         &mut self,
         renderer: &Renderer,
@@ -92,7 +150,7 @@ impl View {
         colors: &[Option<HostImage>],
         depth: Option<HostImage>,
     ) -> Result<()> {
-        self.check_images(colors, depth)?;
+        self.check_images(frame, colors, depth)?;
         // SAFETY: this function's contract.
         unsafe { self.prepare(renderer, commands, frame) }?;
         let Some(area) = self.prepared.as_ref().map(|prepared| prepared.area) else { return Ok(()) };
@@ -115,14 +173,33 @@ impl View {
             info = info.stencil_attachment(&of_depth_image);
         }
         let aspect = aspect_of(self.rendering.depth_format);
-        let barriers = |of: fn(HostImage, vk::ImageAspectFlags, ImageState) -> _| -> Barriers {
+        let ours = self.device.queue_family();
+        // Between one family and itself nothing is transferred; what has nothing in it need not be.
+        let transfer = |of_host: u32, layout: vk::ImageLayout| {
+            let transfers = ![vk::QUEUE_FAMILY_IGNORED, ours].contains(&of_host);
+            transfers && layout != vk::ImageLayout::UNDEFINED
+        };
+        let barriers = |of: &dyn Fn(HostImage, vk::ImageAspectFlags, ImageState) -> _| -> Barriers {
             let color = (vk::ImageAspectFlags::COLOR, ImageState::COLOR_ATTACHMENT);
             let colors = colors.iter().flatten().map(|image| (*image, color));
             let all = colors.chain(depth.map(|image| (image, (aspect, ImageState::DEPTH_ATTACHMENT))));
             all.map(|(image, (aspect, state))| of(image, aspect, state)).collect()
         };
-        let before = barriers(|image, aspect, state| image.barrier(aspect, image.before, state));
-        let after = barriers(|image, aspect, state| image.barrier(aspect, state, image.after));
+        const STAYS: [u32; 2] = [vk::QUEUE_FAMILY_IGNORED; 2];
+        let before = barriers(&|image, aspect, state| {
+            let families = match transfer(image.family_before, image.before.layout) {
+                true => [image.family_before, ours],
+                false => STAYS,
+            };
+            image.barrier(aspect, [image.before, state], families)
+        });
+        let after = barriers(&|image, aspect, state| {
+            let families = match transfer(image.family_after, state.layout) {
+                true => [ours, image.family_after],
+                false => STAYS,
+            };
+            image.barrier(aspect, [state, image.after], families)
+        });
         let raw = self.device.raw();
         // SAFETY: this function's contract: outside of rendering, images in these states.
         unsafe {
@@ -138,7 +215,12 @@ impl View {
         }
     }
 
-    fn check_images(&self, colors: &[Option<HostImage>], depth: Option<HostImage>) -> Result<()> {
+    fn check_images(
+        &self,
+        frame: &ViewFrame<'_>,
+        colors: &[Option<HostImage>],
+        depth: Option<HostImage>,
+    ) -> Result<()> {
         let formats = &self.rendering.color_formats;
         let fits = |(image, format): (&Option<HostImage>, &vk::Format)| {
             image.is_some() == (*format != vk::Format::UNDEFINED)
@@ -147,9 +229,22 @@ impl View {
             return Err(Error::option("colors", format!("expected an image for each format of {formats:?}")));
         }
         match (depth.is_some(), self.rendering.has_depth()) {
-            (true, false) => Err(Error::option("depth", "the view's rendering has none: expected none")),
-            (false, true) => Err(Error::option("depth", "the view's rendering has one: expected its image")),
-            _ => Ok(()),
+            (true, false) => {
+                return Err(Error::option("depth", "the view's rendering has none: expected none"));
+            }
+            (false, true) => {
+                return Err(Error::option("depth", "the view's rendering has one: expected its image"));
+            }
+            _ => {}
         }
+        let area = (frame.corner_px, frame.settings.size_px);
+        for ((number, image), format) in colors.iter().enumerate().zip(formats) {
+            if let Some(image) = image {
+                let expected = (*format, vk::ImageUsageFlags::COLOR_ATTACHMENT);
+                image.check(format_args!("colors[{number}]"), expected, area)?;
+            }
+        }
+        let expected = (self.rendering.depth_format, vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT);
+        depth.map_or(Ok(()), |image| image.check(format_args!("depth"), expected, area))
     }
 }

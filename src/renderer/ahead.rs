@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use ash::vk;
 
-use super::{Readbacks, Renderer};
+use super::{Readbacks, Renderer, Seen};
 use crate::{
     arena::Arena,
     error::{ErrorKind, Result},
@@ -45,7 +45,7 @@ impl Renderer {
         loop {
             let arena = Arena::new();
             let how = (None, MissingPipelines::UpTo(self.shaders.made() + 1));
-            let (seen, onto) = ((scene, camera, settings), (&target, Readbacks::default()));
+            let (seen, onto) = (Seen { scene, camera, settings }, (&target, Readbacks::default()));
             // SAFETY: nothing of the slot was ever recorded.
             match unsafe { self.declare_in(&arena, &mut slot, seen, onto, how, |_, _, _| Ok(())) } {
                 Ok(()) => return Ok(true),

@@ -16,7 +16,7 @@ pub use in_parts::PartSums;
 use in_parts::Parts;
 use targets::Targets;
 
-use super::{Readbacks, Renderer};
+use super::{Readbacks, Renderer, SceneFrame};
 use crate::{
     error::{Error, Result},
     frame::FrameSlot,
@@ -220,19 +220,14 @@ impl Headless {
         let begun = Instant::now();
         // SAFETY: every submission was waited for.
         let commands = unsafe { self.commands.begin() }?;
+        let target = targets.target.target();
+        let frame = SceneFrame {
+            readbacks: Readbacks { sample, ..targets.readbacks() },
+            profile: wanted.profile,
+            ..SceneFrame::new((scene, camera, settings), &target)
+        };
         // SAFETY: recording; all that the frame uses is alive until the wait below; the same for the slot.
-        let plan = unsafe {
-            self.renderer.record(
-                commands,
-                &mut self.slot,
-                scene,
-                camera,
-                settings,
-                &targets.target.target(),
-                Readbacks { sample, ..targets.readbacks() },
-                wanted.profile,
-            )
-        }?;
+        let plan = unsafe { self.renderer.record(commands, &mut self.slot, &frame) }?;
         let commands = self.commands.end()?;
         let record_secs = begun.elapsed().as_secs_f64();
         let submitted = Instant::now();

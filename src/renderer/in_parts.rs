@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ash::vk;
 
 use super::{
-    Readbacks, Renderer,
+    Readbacks, Renderer, Seen,
     declare::{Imports, bytes_per_pixel, copy_out, copy_surface},
 };
 use crate::{
@@ -21,7 +21,7 @@ use crate::{
         self, FramePlan, Inputs, Place,
         in_parts::{self, OfAll, PART_DEPTH_FORMAT, PART_SUM_FORMAT},
     },
-    prepare::{Placed, PreparedScene},
+    prepare::Placed,
     scene::{Accumulate, Budget, Camera, Edges, Settings},
 };
 
@@ -59,7 +59,7 @@ pub enum Stage<'t> {
 }
 
 impl Renderer {
-    /// Records one stage of a frame of which `scene` is a part. The camera and the settings are the same for all parts, and edges are hard. Returns the
+    /// Records one stage of a frame of which the scene is a part. The camera and the settings are the same for all parts, and edges are hard. Returns the
     /// plan that was recorded.
     ///
     /// # Errors
@@ -72,15 +72,12 @@ impl Renderer {
         &self,
         commands: vk::CommandBuffer,
         slot: &mut FrameSlot,
-        scene: &PreparedScene,
-        camera: &Camera,
-        settings: &Settings,
+        seen: Seen<'_>,
         stage: Stage<'_>,
     ) -> Result<Arc<Plan>> {
         let arena = slot.take_arena();
         // SAFETY: this function's contract.
-        let recorded =
-            unsafe { self.record_stage_in(&arena, commands, slot, (scene, camera, settings), stage) };
+        let recorded = unsafe { self.record_stage_in(&arena, commands, slot, seen, stage) };
         slot.give_back(arena);
         recorded
     }
@@ -94,7 +91,7 @@ impl Renderer {
         arena: &Arena,
         commands: vk::CommandBuffer,
         slot: &mut FrameSlot,
-        (scene, camera, settings): (&PreparedScene, &Camera, &Settings),
+        Seen { scene, camera, settings }: Seen<'_>,
         stage: Stage<'_>,
     ) -> Result<Arc<Plan>> {
         check(camera, settings)?;

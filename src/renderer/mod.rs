@@ -9,6 +9,7 @@ mod in_parts;
 #[cfg(feature = "files")]
 mod paged;
 mod pick;
+mod scene_frame;
 
 use std::sync::{
     Arc,
@@ -23,6 +24,7 @@ pub use headless::{Frame, Headless, HeadlessOptions, PartSums, Wanted};
 pub use in_parts::Stage;
 #[cfg(feature = "files")]
 pub use paged::{Drawn, PagedScene, Prepare};
+pub use scene_frame::{Readbacks, SampleSum, SceneFrame, Seen};
 
 use crate::{
     arena::Arena,
@@ -47,32 +49,6 @@ pub struct Renderer {
     pub(crate) shaders: Shaders,
     /// What splats that change go through.
     pub(crate) staging: StagingRing,
-}
-
-/// Buffers that the frame is copied to, for the host to read: rows without padding, top row first. `Some` asks for
-/// it. The surface's four images come together or not at all.
-#[derive(Clone, Copy, Default)]
-pub struct Readbacks {
-    /// The target's pixels, in its format.
-    pub target: Option<vk::Buffer>,
-    /// Weight (R32F), albedo (RGBA32F), normal (RGBA32F), depth (R32F), as [`crate::passes::Exported`] has them.
-    pub surface: Option<[vk::Buffer; 4]>,
-    /// The frame is one of several samples of a picture ([`crate::scene::Samples`]).
-    pub sample: Option<SampleSum>,
-}
-
-/// Where the samples of a picture are added up, for frames each of which is one of them: its camera is [`Camera::sample`], its settings say
-/// how many there are. The target is written with the last one; before, neither it nor buffers are touched.
-#[derive(Clone, Copy, Debug)]
-pub struct SampleSum {
-    /// An image of the target's size, R32G32B32A32_SFLOAT, that may be a color attachment and sampled.
-    pub image: vk::Image,
-    /// A view of all of it.
-    pub view: vk::ImageView,
-    /// Whether this is the first sample: nothing is in it yet.
-    pub first: bool,
-    /// Whether this is the last one.
-    pub last: bool,
 }
 
 impl Renderer {
@@ -229,22 +205,17 @@ impl Renderer {
     ///
     /// # Safety
     /// `commands` must be a primary command buffer, recording, outside of rendering, without an active occlusion query (and,
-    /// profiled by counts, statistics query), and be submitted to the device's queue. `scene`, the
+    /// profiled by counts, statistics query), and be submitted to the device's queue. The scene, the
     /// target, the buffers of `readbacks`, the slot and the renderer must stay alive until it has run; the frame
     /// recorded before in this slot must have finished. The target is what it says and in its initial state; the host
     /// may read `readbacks` after its own wait.
-    #[allow(clippy::too_many_arguments, reason = "each is a different thing, named at the call")]
     pub unsafe fn record(
         &self,
         commands: vk::CommandBuffer,
         slot: &mut FrameSlot,
-        scene: &PreparedScene,
-        camera: &Camera,
-        settings: &Settings,
-        target: &Target,
-        readbacks: Readbacks,
-        profile: Option<Profile>,
+        frame: &SceneFrame<'_>,
     ) -> Result<Arc<Plan>> {
+        let SceneFrame { seen, target, readbacks, profile } = *frame;
         let arena = slot.take_arena();
         let record = |execution: Execution<'_>, graph: &Graph<'_, Body<'_>>, imports: &Imports<'_>| {
             // SAFETY: this function's contract.
@@ -253,7 +224,6 @@ impl Renderer {
                 execution.record(commands, graph, imports)
             }
         };
-        let seen = (scene, camera, settings);
         let how = (profile, MissingPipelines::Make);
         // SAFETY: this function's contract.
         let recorded = unsafe { self.declare_in(&arena, slot, seen, (target, readbacks), how, record) };
@@ -269,7 +239,7 @@ impl Renderer {
         &self,
         arena: &Arena,
         slot: &mut FrameSlot,
-        (scene, camera, settings): (&PreparedScene, &Camera, &Settings),
+        Seen { scene, camera, settings }: Seen<'_>,
         (target, readbacks): (&Target, Readbacks),
         (profile, missing): (Option<Profile>, MissingPipelines),
         then: impl FnOnce(Execution<'_>, &Graph<'_, Body<'_>>, &Imports<'_>) -> Result<T>,

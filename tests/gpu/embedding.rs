@@ -14,7 +14,7 @@ use in_flight::InFlight;
 use no_waits::{SUBMISSIONS_AND_WAITS, without_submission_and_waits};
 use surfel::{
     prepare::PreparedScene,
-    renderer::{Readbacks, Renderer, Wanted},
+    renderer::{Renderer, SceneFrame, Wanted},
     scene::{Camera, Scene, Settings},
     vk::{Device, Features, Queue, Staging},
 };
@@ -96,14 +96,11 @@ fn record(
     number: usize,
     settings: &Settings,
 ) {
-    let target = frame.target(settings.size_px);
+    let (target, camera) = (frame.target(settings.size_px), camera(number));
+    let shown = SceneFrame::new((scene, &camera, settings), &target);
     // SAFETY: the frame's commands are recording, and its earlier submission was waited for; scene, renderer, slot and
     // target stay alive until its next wait.
-    unsafe {
-        let (slot, none) = (&mut frame.slot, Readbacks::default());
-        renderer.record(frame.commands, slot, scene, &camera(number), settings, &target, none, None)
-    }
-    .unwrap();
+    unsafe { renderer.record(frame.commands, &mut frame.slot, &shown) }.unwrap();
 }
 
 #[test]

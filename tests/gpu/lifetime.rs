@@ -19,7 +19,7 @@ use surfel::{
     frame::{FrameSlot, HeadlessTarget},
     graph::execute::Profile,
     prepare::PreparedScene,
-    renderer::{Readbacks, Renderer},
+    renderer::{Readbacks, Renderer, SceneFrame},
     vk::{Buffer, BufferDesc, CommandPool, Device, Features, Image, ImageDesc, MemoryUse, Queue, Staging},
 };
 
@@ -168,11 +168,10 @@ fn record(device: &Device, (renderer, prepared): &(Renderer, PreparedScene)) -> 
     let readbacks = Readbacks { target: Some(picture.raw()), surface: None, sample: None };
     let camera = builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
     let (target, settings) = (target.target(), settings());
+    let profile = Some(Profile::Times);
+    let frame = SceneFrame { readbacks, profile, ..SceneFrame::new((prepared, &camera, &settings), &target) };
     // SAFETY: recording; never submitted.
-    unsafe {
-        let (buffer, profile) = (commands.begin()?, Some(Profile::Times));
-        renderer.record(buffer, &mut slot, prepared, &camera, &settings, &target, readbacks, profile)
-    }?;
+    unsafe { renderer.record(commands.begin()?, &mut slot, &frame) }?;
     commands.end().map(drop)
 }
 

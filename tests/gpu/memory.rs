@@ -20,7 +20,7 @@ use surfel::{
     frame::{FrameSlot, HeadlessTarget},
     graph::MemoryClass,
     load::{LoadOptions, Model, builtin, load},
-    renderer::Readbacks,
+    renderer::SceneFrame,
     save,
     scene::{Colors, Object, Rasterizer, Scene, Settings, Shapes, Splats},
     vk::CommandPool,
@@ -212,8 +212,8 @@ fn allocations(count: usize, rasterizer: Rasterizer, is_inside: bool) -> [usize;
         let before = ALLOCATIONS.get();
         // SAFETY: nothing that was recorded is submitted; all is alive as long as that.
         unsafe {
-            let (commands, none) = (pool.begin().unwrap(), Readbacks::default());
-            renderer.record(commands, &mut slot, &prepared, &camera, &settings, &target, none, None).unwrap();
+            let shown = SceneFrame::new((&prepared, &camera, &settings), &target);
+            renderer.record(pool.begin().unwrap(), &mut slot, &shown).unwrap();
         }
         pool.end().unwrap();
         ALLOCATIONS.get() - before

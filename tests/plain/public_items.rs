@@ -101,13 +101,13 @@ const INSIDE: &[&str] = &[
     "OptionValue",
     "PickPlan",
     "Plan",
-    "Readbacks",
     "Refinements",
+    "SceneFrame",
+    "Seen",
     "Shaders",
     "Stage",
     "Staging",
     "Surface",
-    "Target",
     "ViewFromWorld",
 ];
 

@@ -144,6 +144,7 @@ static SurfelDevice *import(Engine *engine, uint64_t features) {
     IS(NO_DEVICE, surfel_device_import(&host, &device), "");
     TRUE(device == NULL);
     host.queueFamily = engine->family;
+    memory(engine, host);
     OK(surfel_device_import(&host, &device));
     return device;
 }

@@ -31,7 +31,7 @@ int __wrap_posix_memalign(void **at, size_t alignment, size_t size) {
 
 static SurfelHostImage image(const Attachment *given, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
     return (SurfelHostImage){.sType = SURFEL_STRUCTURE_TYPE_HOST_IMAGE, .size = sizeof(SurfelHostImage),
-                             .image = given->image, .view = given->view, .beforeStages = stages,
+                             .image = given->image, .view = given->view, .width = WIDTH, .height = HEIGHT, .beforeStages = stages,
                              .beforeAccess = access, .afterStages = stages, .afterAccess = access,
                              .beforeLayout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL,
                              .afterLayout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL};
@@ -112,8 +112,19 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     IS(INVALID_ARGUMENT, surfel_view_record(view, engine->commands, &frame, colors, 9, &depth), "colorCount is 9: expected at most 8");
     IS(INVALID_ARGUMENT, surfel_view_record(view, VK_NULL_HANDLE, &frame, colors, 1, &depth), "commands is NULL");
     SurfelHostImage wrong = color;
-    wrong.view = VK_NULL_HANDLE;
     colors[0] = &wrong;
+    wrong.format = VK_FORMAT_R8G8B8A8_UNORM;
+    IS(OPTION, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "colors[0].format: R8G8B8A8_UNORM: expected R32G32B32A32_SFLOAT");
+    wrong.format = format;
+    wrong.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
+    IS(OPTION, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "colors[0].usage: SAMPLED");
+    wrong.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    wrong.width = WIDTH - 1;
+    IS(OPTION, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "colors[0].extent: 639x480: expected 640x480 pixels from 0,0 on");
+    wrong.reserved = 1;
+    IS(NEWER_STRUCT, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "reserved is 1");
+    wrong = color;
+    wrong.view = VK_NULL_HANDLE;
     IS(INVALID_ARGUMENT, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "a color: image or view is NULL");
     free(by_two_calls);
     surfel_settings_destroy(settings);

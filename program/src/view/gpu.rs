@@ -11,7 +11,7 @@ use std::{
 use ash::vk;
 use surfel::{
     Headless, Result,
-    renderer::Readbacks,
+    renderer::{Readbacks, SceneFrame},
     vk::{PipelineCache, Surface, Swapchain, Turn, Window},
 };
 
@@ -157,20 +157,11 @@ impl Gpu {
             let target = slot.target(self.headless.device(), view)?;
             let sample = slot.sum(self.headless.device(), view)?;
             let readbacks = Readbacks { sample, ..Readbacks::default() };
+            let seen = (view.scene, view.camera, view.settings);
+            let drawn = SceneFrame { readbacks, profile: desc.profile, ..SceneFrame::new(seen, &target) };
             // SAFETY: recording; the slot's frame before was waited for; scene, target and renderer live until the queue is idle, for all
             // that is dropped waits for its epoch.
-            let recorded = unsafe {
-                self.headless.renderer.record(
-                    commands,
-                    slot.slot(),
-                    view.scene,
-                    view.camera,
-                    view.settings,
-                    &target,
-                    readbacks,
-                    desc.profile,
-                )
-            };
+            let recorded = unsafe { self.headless.renderer.record(commands, slot.slot(), &drawn) };
             recorded?;
             slot.recorded(view);
         }

@@ -32,8 +32,6 @@ pub(crate) struct Ahead {
     pub listed: bool,
     /// A tile may have more splats than one dispatch takes.
     pub overflows: bool,
-    /// There are several bands of tiles.
-    pub in_bands: bool,
     /// Levels of detail have no room in tiles.
     pub without_tiles: bool,
     /// Splats are drawn for all of what has both in cells.
@@ -58,10 +56,10 @@ impl Ahead {
         let has_levels = any(|placed| placed.scene.chunks.iter().any(|chunk| chunk.levels.is_some()));
         let has_cells = any(|placed| placed.scene.meshes.iter().any(|mesh| mesh.levels.is_some()));
         let has_budget = settings.budget != Budget::Unlimited;
-        (0..1_u32 << 8).filter_map(move |bits| {
-            let [large, small, listed, overflows, in_bands, without_tiles, without_cells, without_levels] =
-                [0, 1, 2, 3, 4, 5, 6, 7].map(|bit| bits >> bit & 1 == 1);
-            let of_tiles_alone = small || overflows || in_bands;
+        (0..1_u32 << 7).filter_map(move |bits| {
+            let [large, small, listed, overflows, without_tiles, without_cells, without_levels] =
+                [0, 1, 2, 3, 4, 5, 6].map(|bit| bits >> bit & 1 == 1);
+            let of_tiles_alone = small || overflows;
             let may_be = (may_be_small || !small)
                 && (has_levels && !of_tiles_alone || !without_tiles)
                 && (has_cells || !without_cells)
@@ -71,7 +69,6 @@ impl Ahead {
                 small,
                 listed,
                 overflows,
-                in_bands,
                 without_tiles,
                 without_cells,
                 without_levels,
@@ -106,7 +103,7 @@ impl Ahead {
         std::iter::successors(Some(size_px), half)
     }
 
-    /// Bands of tiles of these splats, of which there may be a few or as many as there is room for.
+    /// Tiles of these splats, of which there may be a few or as many as there is room for.
     ///
     /// # Errors
     /// The reason against tiles.
@@ -145,13 +142,13 @@ impl Ahead {
             }
         };
         let band = Band { splats: own.into_bump_slice(), visible, plan };
-        let count = if self.in_bands && band.visible.is_some() && !polygons { 2 } else { 1 };
-        Ok((arena.list((0..count).map(|_| band.clone())), reason))
+        // Several bands have the pipelines of one.
+        Ok((std::slice::from_ref(arena.keep(band)), reason))
     }
 
     /// Whether tiles are made of listed splats.
     fn lists_tiles(self, splats: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
         let has_levels = splats.iter().any(|draw| draw.levels.is_some());
-        has_levels || (self.listed || self.in_bands) && culling::lists_tiles(splats, settings, limits)
+        has_levels || self.listed && culling::lists_tiles(splats, settings, limits)
     }
 }

@@ -4,6 +4,7 @@ use std::{sync::Arc, time::Instant};
 
 use ash::vk;
 
+use super::super::Seen;
 use super::{Frame, Headless, Targets, Wanted, targets::copied};
 use crate::{
     error::{Error, Result},
@@ -156,7 +157,8 @@ impl Headless {
         // SAFETY: every submission was waited for.
         let commands = unsafe { self.commands.begin() }?;
         // SAFETY: recording; all that the stage uses is alive until the wait below; buffers have four or sixteen bytes a pixel.
-        let plan = unsafe { self.renderer.record_stage(commands, slot, scene, camera, settings, stage) }?;
+        let seen = Seen { scene, camera, settings };
+        let plan = unsafe { self.renderer.record_stage(commands, slot, seen, stage) }?;
         let commands = self.commands.end()?;
         // SAFETY: recorded just now; waited for at once.
         let epoch = unsafe { self.queue.submit(commands) }?;

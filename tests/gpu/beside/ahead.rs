@@ -8,6 +8,7 @@ use surfel::{
     ErrorKind, Scene, Settings,
     embed::{HostCamera, MissingPipelines, Placed, Renderer, Rendering, View, ViewFrame},
     scene::{Budget, Colors, Cull, Edges, Filter, Layers, Mesh, MeshObject, Rasterizer, TileMemory},
+    vk::Limits,
 };
 
 use super::{Beside, COLOR_FORMAT, OBJECT_FORMATS, REVERSED, SIZE_PX, engine::Style};
@@ -102,6 +103,9 @@ fn triangle() -> MeshObject {
     MeshObject { name: "triangle".to_owned(), mesh, closed: false }
 }
 
+/// Of a device on which lists have room for some of its splats alone.
+const WITHOUT_ROOM: &str = "levels without room";
+
 fn flights() -> Vec<Flight> {
     let by = |rasterizer| Settings { size_px: SIZE_PX, rasterizer, ..Settings::default() };
     let flight = |name, scene, settings| Flight { name, scene, settings };
@@ -128,6 +132,11 @@ fn flights() -> Vec<Flight> {
             of_splats(3000, true, 1.0),
             Settings { cull: Cull::Hidden, ..by(points) },
         ),
+        flight(
+            "points of which some may lie outside",
+            of_splats(3000, false, 1.0),
+            Settings { filter: Filter::Max, ..hard(by(Rasterizer::Auto)) },
+        ),
         flight("quads", of_splats(3000, false, 1.0), by(Rasterizer::Quad)),
         flight("triangles", of_splats(3000, true, 1.0), by(Rasterizer::Triangle)),
         flight(
@@ -145,6 +154,7 @@ fn flights() -> Vec<Flight> {
             Settings { tile_memory: TileMemory::Most(20_000_000), ..hard(by(tiles)) },
         ),
         flight("levels", with_levels(false), by(tiles)),
+        flight(WITHOUT_ROOM, with_levels(false), by(tiles)),
         flight("levels, as points", with_levels(false), by(points)),
         flight("a budget", with_levels(true), Settings { budget: Budget::Splats(15_000), ..by(tiles) }),
     ]
@@ -187,7 +197,11 @@ fn one_call_makes_all_pipelines_wherever_the_camera_flies() {
             let hides = Some(beside.hides());
             let first = on_the_way(settings.size_px).nth(20).unwrap();
             let frame = ViewFrame { hides, ..ViewFrame::new(&placed, &first, &settings) };
-            let renderer = Renderer::new(&beside.device, None).unwrap();
+            let mut renderer = Renderer::new(&beside.device, None).unwrap();
+            if name == WITHOUT_ROOM {
+                let limits = beside.device.facts().limits;
+                renderer.lower_limits(&Limits { max_storage_buffer_range: 1 << 16, ..limits });
+            }
             let begin = std::time::Instant::now();
             let made = renderer.compile_ahead(&rendering, &frame).unwrap();
             let secs = begin.elapsed().as_secs_f32();

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use surfel::{
     Camera, Settings,
-    renderer::{Readbacks, Renderer, Wanted},
+    renderer::{Renderer, SceneFrame, Wanted},
     scene::{Cull, Rasterizer, Scene},
     vk::Features,
 };
@@ -46,8 +46,8 @@ fn go_around(scene: &Scene, settings: &Settings) -> (Vec<Vec<&'static str>>, Vec
         // SAFETY: the slot's commands are recording, and its earlier submission was waited for; scene, renderer, slot and target
         // stay alive until its next wait.
         let plan = unsafe {
-            let (slot_of_ours, none) = (&mut slot.slot, Readbacks::default());
-            renderer.record(slot.commands, slot_of_ours, &prepared, &camera, settings, &target, none, None)
+            let shown = SceneFrame::new((&prepared, &camera, settings), &target);
+            renderer.record(slot.commands, &mut slot.slot, &shown)
         }
         .unwrap();
         made.push(faults::take_made());

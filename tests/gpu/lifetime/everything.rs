@@ -8,7 +8,7 @@ use surfel::{
     Error,
     frame::{FrameSlot, HeadlessTarget},
     graph::execute::Profile,
-    renderer::{Readbacks, Renderer},
+    renderer::{Readbacks, Renderer, SceneFrame},
     scene::Settings,
     shaders,
     vk::{
@@ -143,9 +143,12 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
         staging.record(buffer);
         let camera = builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
         let (target, settings) = (target.target(), settings());
-        let plan = renderer
-            .record(buffer, &mut slot, &prepared, &camera, &settings, &target, readbacks, Some(profile))
-            .unwrap();
+        let shown = SceneFrame {
+            readbacks,
+            profile: Some(profile),
+            ..SceneFrame::new((&prepared, &camera, &settings), &target)
+        };
+        let plan = renderer.record(buffer, &mut slot, &shown).unwrap();
         assert_eq!(
             plan.passes.len(),
             26,

@@ -1,0 +1,97 @@
+#include "check.h"
+
+/* An allocator of the host's: each piece a memory object of its own; it counts them, and refuses all after some. */
+typedef struct Allocator {
+    Engine *engine;
+    VkPhysicalDeviceMemoryProperties types;
+    unsigned asked, live, left;
+} Allocator;
+
+static VkResult allocate(void *user, const SurfelMemoryRequest *request, SurfelAllocation *allocation) {
+    Allocator *own = user;
+    TRUE(request->sType == SURFEL_STRUCTURE_TYPE_MEMORY_REQUEST && request->size == sizeof *request);
+    TRUE(request->name[0] != 0 && request->bytes > 0 && !(request->writtenByHost && request->readByHost));
+    own->asked++;
+    if (own->left == 0) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    own->left--;
+    const int is_mapped = request->writtenByHost || request->readByHost;
+    const VkMemoryPropertyFlags wanted = is_mapped ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0;
+    uint32_t type = 0;
+    while (!(request->memoryTypeBits >> type & 1) || (own->types.memoryTypes[type].propertyFlags & wanted) != wanted) type++;
+    const VkMemoryAllocateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = request->bytes, .memoryTypeIndex = type};
+    TRUE(vkAllocateMemory(own->engine->device, &info, NULL, &allocation->memory) == VK_SUCCESS);
+    if (is_mapped) {
+        TRUE(vkMapMemory(own->engine->device, allocation->memory, 0, VK_WHOLE_SIZE, 0, &allocation->mapped) == VK_SUCCESS);
+    }
+    allocation->token = 7;
+    own->live++;
+    return VK_SUCCESS;
+}
+
+static void release(void *user, const SurfelAllocation *allocation) {
+    Allocator *own = user;
+    TRUE(allocation->token == 7 && allocation->offset == 0);
+    own->live--;
+    vkFreeMemory(own->engine->device, allocation->memory, NULL);
+}
+
+/* Ends an epoch of which nothing was submitted: what is left of the host's memory. */
+static unsigned left_after(SurfelDevice *device, const Allocator *own) {
+    uint64_t epoch;
+    OK(surfel_device_end_epoch(device, &epoch));
+    OK(surfel_device_epoch_done(device, epoch));
+    return own->live;
+}
+
+void memory(Engine *engine, SurfelImport host) {
+    enum { ALL = 1000000 };
+    Allocator own = {.engine = engine, .left = ALL};
+    vkGetPhysicalDeviceMemoryProperties(engine->physical, &own.types);
+    SurfelMemory of_host = {.sType = SURFEL_STRUCTURE_TYPE_MEMORY, .size = sizeof of_host, .user = &own, .allocate = allocate};
+    host.memory = &of_host;
+    SurfelDevice *device;
+    IS(INVALID_ARGUMENT, surfel_device_import(&host, &device), "memory: free is NULL");
+    of_host = (SurfelMemory){.sType = SURFEL_STRUCTURE_TYPE_MEMORY, .size = sizeof of_host, .user = &own, .free = release};
+    IS(INVALID_ARGUMENT, surfel_device_import(&host, &device), "memory: allocate is NULL");
+    of_host.allocate = allocate;
+    OK(surfel_device_import(&host, &device));
+    SurfelRenderer *renderer;
+    OK(surfel_renderer_create(device, NULL, &renderer));
+    SurfelPreparedScene *ball = upload(engine, device, renderer, 1);
+    TRUE(own.asked > 1 && own.live > 1);
+    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
+                                       .colorFormats = &format, .colorFormatCount = 1,
+                                       .depthFormat = VK_FORMAT_D32_SFLOAT};
+    const SurfelPreparedScene *scenes[] = {ball};
+    const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes, .sceneCount = 1,
+                               .width = WIDTH, .height = HEIGHT,
+                               .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1},
+                               .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
+    /* Each request of a new view's frame is refused in turn, and the next frame works. */
+    unsigned refused = 0;
+    for (;; refused++) {
+        SurfelView *view;
+        OK(surfel_view_create(renderer, &rendering, &view));
+        engine_begin(engine);
+        own.left = refused;
+        const SurfelResult result = surfel_view_prepare(view, engine->commands, &frame);
+        own.left = ALL;
+        if (result != SURFEL_RESULT_SUCCESS) {
+            TRUE(result == SURFEL_RESULT_OUT_OF_MEMORY && strstr(surfel_last_error(), "the host's allocator answered"));
+            engine_begin(engine);
+            left_after(device, &own);
+            OK(surfel_view_prepare(view, engine->commands, &frame));
+        }
+        engine_begin(engine);
+        surfel_view_destroy(view);
+        left_after(device, &own);
+        if (result == SURFEL_RESULT_SUCCESS) break;
+    }
+    TRUE(refused > 2);
+    surfel_prepared_scene_destroy(ball);
+    surfel_renderer_destroy(renderer);
+    TRUE(left_after(device, &own) == 0);
+    surfel_device_destroy(device);
+}

@@ -1,0 +1,71 @@
+//! One frame of a scene: what is seen, and what it is drawn to.
+
+use ash::vk;
+
+use crate::{
+    frame::Target,
+    graph::execute::Profile,
+    prepare::PreparedScene,
+    scene::{Camera, Settings},
+};
+
+/// A scene as a camera sees it.
+#[derive(Clone, Copy)]
+pub struct Seen<'a> {
+    /// What.
+    pub scene: &'a PreparedScene,
+    /// From where.
+    pub camera: &'a Camera,
+    /// How.
+    pub settings: &'a Settings,
+}
+
+/// A frame of one scene, for [`super::Renderer::record`].
+#[derive(Clone, Copy)]
+pub struct SceneFrame<'a> {
+    /// What is seen.
+    pub seen: Seen<'a>,
+    /// What it is drawn to.
+    pub target: &'a Target,
+    /// What it is copied to.
+    pub readbacks: Readbacks,
+    /// Each pass is timed, for [`crate::frame::FrameSlot::profiler`].
+    pub profile: Option<Profile>,
+}
+
+impl<'a> SceneFrame<'a> {
+    /// A frame that is copied to nothing and not timed.
+    pub fn new(
+        (scene, camera, settings): (&'a PreparedScene, &'a Camera, &'a Settings),
+        target: &'a Target,
+    ) -> Self {
+        let seen = Seen { scene, camera, settings };
+        Self { seen, target, readbacks: Readbacks::default(), profile: None }
+    }
+}
+
+/// Buffers that the frame is copied to, for the host to read: rows without padding, top row first. `Some` asks for
+/// it. The surface's four images come together or not at all.
+#[derive(Clone, Copy, Default)]
+pub struct Readbacks {
+    /// The target's pixels, in its format.
+    pub target: Option<vk::Buffer>,
+    /// Weight (R32F), albedo (RGBA32F), normal (RGBA32F), depth (R32F), as [`crate::passes::Exported`] has them.
+    pub surface: Option<[vk::Buffer; 4]>,
+    /// The frame is one of several samples of a picture ([`crate::scene::Samples`]).
+    pub sample: Option<SampleSum>,
+}
+
+/// Where the samples of a picture are added up, for frames each of which is one of them: its camera is [`Camera::sample`], its settings say
+/// how many there are. The target is written with the last one; before, neither it nor buffers are touched.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleSum {
+    /// An image of the target's size, R32G32B32A32_SFLOAT, that may be a color attachment and sampled.
+    pub image: vk::Image,
+    /// A view of all of it.
+    pub view: vk::ImageView,
+    /// Whether this is the first sample: nothing is in it yet.
+    pub first: bool,
+    /// Whether this is the last one.
+    pub last: bool,
+}
