@@ -69,7 +69,7 @@ impl HostImage {
         (format, usage): (vk::Format, vk::ImageUsageFlags),
         (corner_px, size_px): ([i32; 2], [u32; 2]),
     ) -> Result<()> {
-        let refused = |field: &str, problem: String| Err(Error::option(&format!("{name}.{field}"), problem));
+        let refused = |field: &str, problem: String| Err(Error::option(format!("{name}.{field}"), problem));
         if self.format != vk::Format::UNDEFINED && self.format != format {
             return refused(
                 "format",

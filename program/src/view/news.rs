@@ -27,7 +27,7 @@ impl Viewer {
         match news {
             News::Opened(document) => self.opened(*document),
             News::Prepared(prepared) if self.loader.is_newest(prepared.job) => {
-                self.prepared = Some(OnDevice::Whole(prepared.scene, prepared.step));
+                self.prepared = Some(OnDevice::Whole(Box::new(prepared.scene), prepared.step));
                 self.prepares = !prepared.is_last;
                 self.changed();
                 Ok(())

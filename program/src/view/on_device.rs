@@ -13,7 +13,7 @@ use super::told::Step;
 /// A scene on the device.
 pub enum OnDevice {
     /// What was read at once, and how much of it that is.
-    Whole(PreparedScene, Step),
+    Whole(Box<PreparedScene>, Step),
     /// Pages.
     Paged(Box<Paged>),
 }

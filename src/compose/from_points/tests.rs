@@ -55,9 +55,10 @@ fn each_scan_lies_in_its_pose_and_faces_its_scanner() {
         (DVec3::new(-0.5, 5.0, 0.5), DVec3::NEG_Y),
     ];
     for (scan, (middle, normal)) in expected.into_iter().enumerate() {
-        for i in 400 * scan..400 * (scan + 1) {
-            assert!(splats.positions[i].distance(middle) < 0.8, "scan {scan}: {}", splats.positions[i]);
-            assert!(normals[i].as_dvec3().distance(normal) < 1e-3, "scan {scan}: {}", normals[i]);
+        let of_scan = splats.positions.iter().zip(normals).skip(400 * scan).take(400);
+        for (place, its_normal) in of_scan {
+            assert!(place.distance(middle) < 0.8, "scan {scan}: {place}");
+            assert!(its_normal.as_dvec3().distance(normal) < 1e-3, "scan {scan}: {its_normal}");
         }
     }
     assert_eq!(self::splats(&[None, None]).1.sides, Sides::One, "no scan tells where its scanner stood");

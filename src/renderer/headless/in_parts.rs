@@ -156,8 +156,8 @@ impl Headless {
         self.queue.wait_submitted()?;
         // SAFETY: every submission was waited for.
         let commands = unsafe { self.commands.begin() }?;
-        // SAFETY: recording; all that the stage uses is alive until the wait below; buffers have four or sixteen bytes a pixel.
         let seen = Seen { scene, camera, settings };
+        // SAFETY: recording; all that the stage uses is alive until the wait below; buffers have four or sixteen bytes a pixel.
         let plan = unsafe { self.renderer.record_stage(commands, slot, seen, stage) }?;
         let commands = self.commands.end()?;
         // SAFETY: recorded just now; waited for at once.

@@ -178,8 +178,8 @@ fn one_call_draws_what_two_draw() {
     let Beside { engine, view, renderer, .. } = &mut beside;
     let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
     let frame = ViewFrame::new(&scenes, &camera, &settings);
-    let color = Some(color_of(engine));
-    let depth = Some(depth_of(engine));
+    let [of_color, of_depth] = [color_of(engine), depth_of(engine)];
+    let [color, depth] = [of_color, of_depth].map(Some);
     let refused = |view: &mut View, colors: &[Option<HostImage>], depth| {
         // SAFETY: refused before anything is recorded.
         unsafe { view.record(renderer, engine.commands, &frame, colors, depth) }.unwrap_err().to_string()
@@ -188,7 +188,6 @@ fn one_call_draws_what_two_draw() {
         assert!(refused(view, colors, depth).starts_with("colors: expected an image for each format"));
     }
     assert!(refused(view, &[color], None).starts_with("depth: the view's rendering has one"));
-    let [of_color, of_depth] = [color.unwrap(), depth.unwrap()];
     let wrong = HostImage { format: vk::Format::R8G8B8A8_UNORM, ..of_color };
     let expected =
         format!("colors[0].format: R8G8B8A8_UNORM: expected {COLOR_FORMAT:?}, as the view's rendering has");
