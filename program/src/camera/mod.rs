@@ -5,12 +5,14 @@ mod file;
 mod path_file;
 mod words;
 
+use std::f64::consts::FRAC_PI_6;
+
 use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Result,
     geometry::{is_flat_in_front, share_facing},
     load::file_name,
-    scene::{Ball, Camera, CameraParts, PictureHeight, Scene, View, toward_eye},
+    scene::{Ball, Camera, CameraParts, PictureHeight, View, toward_eye},
 };
 
 pub use arguments::{CameraArguments, Target};
@@ -145,7 +147,7 @@ fn as_shaped(parts: CameraParts, loaded: &Loaded) -> CameraParts {
     if raised != parts {
         return raised;
     }
-    if let Some((words, seen)) = beside_its_edge(parts, front, &loaded.scene) {
+    if let Some((words, seen)) = beside_its_edge(parts, front, loaded) {
         console::say(&format!(
             "seen from {words}, because from the front it is edge-on; --view front if not"
         ));
@@ -155,14 +157,18 @@ fn as_shaped(parts: CameraParts, loaded: &Loaded) -> CameraParts {
 }
 
 /// From above, the right or the left, what is edge-on from the front.
-fn beside_its_edge(parts: CameraParts, front: DVec3, scene: &Scene) -> Option<(&'static str, CameraParts)> {
+fn beside_its_edge(parts: CameraParts, front: DVec3, loaded: &Loaded) -> Option<(&'static str, CameraParts)> {
+    let scene = &loaded.scene;
     let edge_on = share_facing(scene, front);
     if edge_on > EDGE_ON {
         return None;
     }
-    let sides = [("above", [0.0, 30.0]), ("the right", [60.0, 20.0]), ("the left", [-60.0, 20.0])].map(
-        |(words, angles)| {
-            let angles_rad = angles.map(f64::to_radians);
+    // As high as what is known to lie.
+    let above_rad =
+        parts.from_above(loaded.extent()).elevation_rad.map_or(FRAC_PI_6, |rad| rad.max(FRAC_PI_6));
+    let [right_rad, left_rad] = [60.0, -60.0].map(|azimuth: f64| [azimuth, 20.0].map(f64::to_radians));
+    let sides = [("above", [0.0, above_rad]), ("the right", right_rad), ("the left", left_rad)].map(
+        |(words, angles_rad)| {
             let share = share_facing(scene, toward_eye(parts.up, angles_rad)[0]);
             (share, words, parts.from_angles(angles_rad))
         },
@@ -196,7 +202,10 @@ fn found_up(parts: CameraParts, loaded: &Loaded) -> Option<DVec3> {
 mod tests {
     use std::path::PathBuf;
 
-    use surfel::{load::PictureDescription, scene::Ball};
+    use surfel::{
+        load::PictureDescription,
+        scene::{Ball, Scene},
+    };
 
     use super::*;
 
