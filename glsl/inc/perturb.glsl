@@ -7,9 +7,11 @@
 #include "inc/config.glsl"
 
 #ifdef TEST_FORMULAS
+#ifndef FORMULA // planes bring it, too
 layout(constant_id = SPEC_PERTURBED_FORMULA) const uint PERTURBED_FORMULA = 0;
 #define FORMULA(number, value) ((PERTURBED_FORMULA == number) ? 1.01 * (value) : (value))
 #define FORMULA_LESS(number, value) ((PERTURBED_FORMULA == number) ? 0.99 * (value) : (value))
+#endif
 #else
 #define FORMULA(number, value) (value)
 #define FORMULA_LESS(number, value) (value)

@@ -8,6 +8,8 @@
 mod common;
 mod selftest;
 
+use std::rc::Rc;
+
 use glam::DVec3;
 
 use common::{
@@ -27,7 +29,7 @@ use surfel::{
 /// Fails unless each formula, if it is wrong, makes one of the pictures wrong, and none is if all are right.
 fn assert_seen(
     headless: &mut Headless,
-    scenes: &[(Hard, Picture)],
+    scenes: &[(Hard, Rc<Picture>)],
     formulas: &[Formula],
     wrong: &dyn Fn(&mut Headless, &Hard, &Picture) -> Option<String>,
 ) {
@@ -50,7 +52,7 @@ fn assert_seen(
     assert!(unseen.is_empty(), "{unseen:?}");
 }
 
-fn with_oracles(scenes: impl IntoIterator<Item = Hard>) -> Vec<(Hard, Picture)> {
+fn with_oracles(scenes: impl IntoIterator<Item = Hard>) -> Vec<(Hard, Rc<Picture>)> {
     scenes.into_iter().map(|hard| (oracle_of(&hard), hard)).map(|(oracle, hard)| (hard, oracle)).collect()
 }
 
