@@ -102,7 +102,7 @@ impl FrameSlot {
             Some(pool) => {
                 // SAFETY: this function's contract.
                 unsafe { pool.reset() };
-                pool.expect(&wanted);
+                pool.make_room_for(&wanted);
             }
             none => *none = Some(DescriptorPool::new(&self.device, "frame sets", wanted)?),
         }

@@ -11,8 +11,6 @@ use crate::{
     frame::{FrameSlot, Target},
     graph::ImageState,
     passes::MissingPipelines,
-    prepare::PreparedScene,
-    scene::{Camera, Settings},
     vk::check_color,
 };
 
@@ -22,17 +20,10 @@ impl Renderer {
     ///
     /// # Errors
     /// [`ErrorKind::Option`] for a format that is not one of [`crate::vk::Requirements::color_formats`]; as [`Self::record`].
-    pub fn make_pipelines(
-        &self,
-        scene: &PreparedScene,
-        camera: &Camera,
-        settings: &Settings,
-        format: vk::Format,
-        time: Duration,
-    ) -> Result<bool> {
+    pub fn make_pipelines(&self, seen: Seen<'_>, format: vk::Format, time: Duration) -> Result<bool> {
         check_color(&self.device, "format", format)?;
         let begun = Instant::now();
-        let [width, height] = settings.size_px;
+        let [width, height] = seen.settings.size_px;
         let target = Target {
             image: vk::Image::null(),
             view: vk::ImageView::null(),
@@ -45,7 +36,7 @@ impl Renderer {
         loop {
             let arena = Arena::new();
             let how = (None, MissingPipelines::UpTo(self.shaders.made() + 1));
-            let (seen, onto) = (Seen { scene, camera, settings }, (&target, Readbacks::default()));
+            let onto = (&target, Readbacks::default());
             // SAFETY: nothing of the slot was ever recorded.
             match unsafe { self.declare_in(&arena, &mut slot, seen, onto, how, |_, _, _| Ok(())) } {
                 Ok(()) => return Ok(true),

@@ -16,7 +16,7 @@ pub use in_parts::PartSums;
 use in_parts::Parts;
 use targets::Targets;
 
-use super::{Readbacks, Renderer, SceneFrame};
+use super::{Readbacks, Renderer, SceneFrame, Seen};
 use crate::{
     error::{Error, Result},
     frame::FrameSlot,
@@ -224,7 +224,7 @@ impl Headless {
         let frame = SceneFrame {
             readbacks: Readbacks { sample, ..targets.readbacks() },
             profile: wanted.profile,
-            ..SceneFrame::new((scene, camera, settings), &target)
+            ..SceneFrame::new(Seen { scene, camera, settings }, &target)
         };
         // SAFETY: recording; all that the frame uses is alive until the wait below; the same for the slot.
         let plan = unsafe { self.renderer.record(commands, &mut self.slot, &frame) }?;

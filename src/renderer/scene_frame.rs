@@ -35,11 +35,7 @@ pub struct SceneFrame<'a> {
 
 impl<'a> SceneFrame<'a> {
     /// A frame that is copied to nothing and not timed.
-    pub fn new(
-        (scene, camera, settings): (&'a PreparedScene, &'a Camera, &'a Settings),
-        target: &'a Target,
-    ) -> Self {
-        let seen = Seen { scene, camera, settings };
+    pub fn new(seen: Seen<'a>, target: &'a Target) -> Self {
         Self { seen, target, readbacks: Readbacks::default(), profile: None }
     }
 }

@@ -187,7 +187,7 @@ impl DescriptorPool {
     }
 
     /// So much is wanted at a time from now on: what is made where there is no room has as much.
-    pub fn expect(&self, sizes: &PoolSizes) {
+    pub fn make_room_for(&self, sizes: &PoolSizes) {
         self.sizes.set(self.sizes.get().max(sizes));
     }
 

@@ -14,7 +14,7 @@ use in_flight::InFlight;
 use no_waits::{SUBMISSIONS_AND_WAITS, without_submission_and_waits};
 use surfel::{
     prepare::PreparedScene,
-    renderer::{Renderer, SceneFrame, Wanted},
+    renderer::{Renderer, SceneFrame, Seen, Wanted},
     scene::{Camera, Scene, Settings},
     vk::{Device, Features, Queue, Staging},
 };
@@ -97,7 +97,7 @@ fn record(
     settings: &Settings,
 ) {
     let (target, camera) = (frame.target(settings.size_px), camera(number));
-    let shown = SceneFrame::new((scene, &camera, settings), &target);
+    let shown = SceneFrame::new(Seen { scene, camera: &camera, settings }, &target);
     // SAFETY: the frame's commands are recording, and its earlier submission was waited for; scene, renderer, slot and
     // target stay alive until its next wait.
     unsafe { renderer.record(frame.commands, &mut frame.slot, &shown) }.unwrap();

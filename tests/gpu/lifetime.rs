@@ -19,7 +19,7 @@ use surfel::{
     frame::{FrameSlot, HeadlessTarget},
     graph::execute::Profile,
     prepare::PreparedScene,
-    renderer::{Readbacks, Renderer, SceneFrame},
+    renderer::{Readbacks, Renderer, SceneFrame, Seen},
     vk::{Buffer, BufferDesc, CommandPool, Device, Features, Image, ImageDesc, MemoryUse, Queue, Staging},
 };
 
@@ -169,7 +169,11 @@ fn record(device: &Device, (renderer, prepared): &(Renderer, PreparedScene)) -> 
     let camera = builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
     let (target, settings) = (target.target(), settings());
     let profile = Some(Profile::Times);
-    let frame = SceneFrame { readbacks, profile, ..SceneFrame::new((prepared, &camera, &settings), &target) };
+    let frame = SceneFrame {
+        readbacks,
+        profile,
+        ..SceneFrame::new(Seen { scene: prepared, camera: &camera, settings: &settings }, &target)
+    };
     // SAFETY: recording; never submitted.
     unsafe { renderer.record(commands.begin()?, &mut slot, &frame) }?;
     commands.end().map(drop)

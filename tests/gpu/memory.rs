@@ -20,7 +20,7 @@ use surfel::{
     frame::{FrameSlot, HeadlessTarget},
     graph::MemoryClass,
     load::{LoadOptions, Model, builtin, load},
-    renderer::SceneFrame,
+    renderer::{SceneFrame, Seen},
     save,
     scene::{Colors, Object, Rasterizer, Scene, Settings, Shapes, Splats},
     vk::CommandPool,
@@ -212,7 +212,8 @@ fn allocations(count: usize, rasterizer: Rasterizer, is_inside: bool) -> [usize;
         let before = ALLOCATIONS.get();
         // SAFETY: nothing that was recorded is submitted; all is alive as long as that.
         unsafe {
-            let shown = SceneFrame::new((&prepared, &camera, &settings), &target);
+            let shown =
+                SceneFrame::new(Seen { scene: &prepared, camera: &camera, settings: &settings }, &target);
             renderer.record(pool.begin().unwrap(), &mut slot, &shown).unwrap();
         }
         pool.end().unwrap();

@@ -3,7 +3,11 @@
 use std::time::Duration;
 
 use ash::vk;
-use surfel::{hard_scenes::Hard, renderer::Headless, scene::Rasterizer};
+use surfel::{
+    hard_scenes::Hard,
+    renderer::{Headless, Seen},
+    scene::Rasterizer,
+};
 
 use crate::common::{PICTURE, headless, render_as, scenes, with};
 
@@ -55,7 +59,14 @@ fn pipelines_are_made_one_a_turn_ahead_of_a_frame_that_makes_none_then() {
         let scene = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
         let (format, before) = (vk::Format::R32G32B32A32_SFLOAT, headless.renderer.pipelines_made());
         let turn = |headless: &Headless, time| {
-            headless.renderer.make_pipelines(&scene, &hard.camera, &hard.settings, format, time).unwrap()
+            headless
+                .renderer
+                .make_pipelines(
+                    Seen { scene: &scene, camera: &hard.camera, settings: &hard.settings },
+                    format,
+                    time,
+                )
+                .unwrap()
         };
         let mut turns = 1;
         while !turn(&headless, Duration::ZERO) {

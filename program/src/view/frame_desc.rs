@@ -3,23 +3,15 @@
 use std::time::Instant;
 
 use ash::vk;
-use surfel::{
-    graph::execute::Profile,
-    prepare::PreparedScene,
-    scene::{Camera, Settings},
-};
+use surfel::{graph::execute::Profile, renderer::Seen};
 
 use super::{overlay::OverlayFrame, picture::Use, show::ShowDesc};
 
 /// A scene as a picture of it is drawn.
 #[derive(Clone, Copy)]
 pub struct SceneView<'a> {
-    /// The scene.
-    pub scene: &'a PreparedScene,
-    /// From where.
-    pub camera: &'a Camera,
-    /// How, and in which size.
-    pub settings: &'a Settings,
+    /// What is seen.
+    pub seen: Seen<'a>,
     /// The picture is light, not colors.
     pub is_light: bool,
     /// It is one of several samples of a picture.

@@ -157,8 +157,8 @@ impl Gpu {
             let target = slot.target(self.headless.device(), view)?;
             let sample = slot.sum(self.headless.device(), view)?;
             let readbacks = Readbacks { sample, ..Readbacks::default() };
-            let seen = (view.scene, view.camera, view.settings);
-            let drawn = SceneFrame { readbacks, profile: desc.profile, ..SceneFrame::new(seen, &target) };
+            let drawn =
+                SceneFrame { readbacks, profile: desc.profile, ..SceneFrame::new(view.seen, &target) };
             // SAFETY: recording; the slot's frame before was waited for; scene, target and renderer live until the queue is idle, for all
             // that is dropped waits for its epoch.
             let recorded = unsafe { self.headless.renderer.record(commands, slot.slot(), &drawn) };
@@ -192,7 +192,7 @@ impl Gpu {
         }
         for (which, view) in desc.views {
             let what = if *which == Use::Other { "other" } else { desc.what };
-            let size_px = view.settings.size_px;
+            let size_px = view.seen.settings.size_px;
             let begun = Begun { at: begun, input: desc.input, what, size_px, compiles };
             self.pictures[which.index()].submitted(epoch, begun);
         }

@@ -108,7 +108,7 @@ impl Picture {
     /// # Errors
     /// Whatever the driver or the allocator answers.
     pub fn target(&mut self, device: &Device, view: &SceneView<'_>) -> Result<Target> {
-        let [width, height] = view.settings.size_px;
+        let [width, height] = view.seen.settings.size_px;
         let extent = vk::Extent2D { width, height };
         let format = view.format();
         let kept = self.image.take().filter(|image| (image.extent(), image.format()) == (extent, format));
@@ -142,7 +142,7 @@ impl Picture {
     /// Whatever the driver or the allocator answers.
     pub fn sum(&mut self, device: &Device, view: &SceneView<'_>) -> Result<Option<SampleSum>> {
         let Some(Ends { first, last }) = view.sample else { return Ok(None) };
-        let [width, height] = view.settings.size_px;
+        let [width, height] = view.seen.settings.size_px;
         let extent = vk::Extent2D { width, height };
         let kept = self.sum.take().filter(|image| image.extent() == extent);
         let image = match kept {

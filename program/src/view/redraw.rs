@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use surfel::{
     Result,
     graph::execute::Profile,
+    renderer::Seen,
     scene::{Camera, Lod, Settings},
 };
 
@@ -173,7 +174,8 @@ impl Viewer {
         if let (true, Some(prepared), Some(camera), Some(settings)) =
             (wants, &self.prepared, &camera, &settings)
         {
-            let view = |settings| SceneView { scene: prepared.scene(), camera, settings, is_light, sample };
+            let seen = |settings| Seen { scene: prepared.scene(), camera, settings };
+            let view = |settings| SceneView { seen: seen(settings), is_light, sample };
             views.push((which, view(settings)));
             views.extend(other.as_ref().map(|other| (Use::Other, view(other))));
         }

@@ -10,6 +10,7 @@ use glam::{
 use surfel::{
     Scene, Settings,
     embed::{HostCamera, Placed, Rendering, View, ViewFrame},
+    renderer::Seen,
     scene::Camera,
     vk::Occlusion,
 };
@@ -43,8 +44,11 @@ fn formats_that_are_not_listed_are_refused_by_name() {
         let refused = said(first(format)).unwrap_or_else(|| panic!("{format:?}"));
         assert!(refused.starts_with("color_formats: "), "{format:?}: {refused}");
         let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
-        let made =
-            beside.renderer.make_pipelines(&ball, &Camera::default(), &settings, format, Duration::ZERO);
+        let made = beside.renderer.make_pipelines(
+            Seen { scene: &ball, camera: &Camera::default(), settings: &settings },
+            format,
+            Duration::ZERO,
+        );
         let refused = made.map(drop).unwrap_err().to_string();
         assert!(refused.starts_with("format: "), "{format:?}: {refused}");
     }

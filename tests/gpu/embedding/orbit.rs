@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use surfel::{
     Camera, Settings,
-    renderer::{Renderer, SceneFrame, Wanted},
+    renderer::{Renderer, SceneFrame, Seen, Wanted},
     scene::{Cull, Rasterizer, Scene},
     vk::Features,
 };
@@ -46,7 +46,7 @@ fn go_around(scene: &Scene, settings: &Settings) -> (Vec<Vec<&'static str>>, Vec
         // SAFETY: the slot's commands are recording, and its earlier submission was waited for; scene, renderer, slot and target
         // stay alive until its next wait.
         let plan = unsafe {
-            let shown = SceneFrame::new((&prepared, &camera, settings), &target);
+            let shown = SceneFrame::new(Seen { scene: &prepared, camera: &camera, settings }, &target);
             renderer.record(slot.commands, &mut slot.slot, &shown)
         }
         .unwrap();

@@ -8,7 +8,7 @@ use surfel::{
     Error,
     frame::{FrameSlot, HeadlessTarget},
     graph::execute::Profile,
-    renderer::{Readbacks, Renderer, SceneFrame},
+    renderer::{Readbacks, Renderer, SceneFrame, Seen},
     scene::Settings,
     shaders,
     vk::{
@@ -146,7 +146,7 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
         let shown = SceneFrame {
             readbacks,
             profile: Some(profile),
-            ..SceneFrame::new((&prepared, &camera, &settings), &target)
+            ..SceneFrame::new(Seen { scene: &prepared, camera: &camera, settings: &settings }, &target)
         };
         let plan = renderer.record(buffer, &mut slot, &shown).unwrap();
         assert_eq!(

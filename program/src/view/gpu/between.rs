@@ -61,9 +61,7 @@ impl Gpu {
     /// As [`surfel::Renderer::make_pipelines`].
     pub fn make_pipelines(&self, views: &[(Use, SceneView<'_>)]) -> Result<bool> {
         for (_, view) in views {
-            let SceneView { scene, camera, settings, .. } = *view;
-            let renderer = &self.headless.renderer;
-            if !renderer.make_pipelines(scene, camera, settings, view.format(), TURN)? {
+            if !self.headless.renderer.make_pipelines(view.seen, view.format(), TURN)? {
                 return Ok(false);
             }
         }
