@@ -120,7 +120,7 @@ void see(Splat splat, Column column, float kept, int row)
 const float LEAST_PRIORITY = 1e-18; // what covers has a weight
 
 // Where curves of a ridge meet, each of its sides is shaded as it is: the mean of their normals would be that of neither, and shine. So the side
-// that has more of the pixel has next to all of its color.
+// that has more of the pixel has next to all of its color, unless both are summed apart (tile/creases.glsl).
 float priority(float kept)
 {
     float part = part_of(kept);
