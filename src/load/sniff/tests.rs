@@ -126,7 +126,11 @@ fn models_and_archives_of_others_say_what_to_do() {
         ("a.svg", b"<?xml version=\"1.0\"?>\n<svg/>", "this is an XML file"),
         ("a.splat", &[1; 64], gaussians),
         ("a.asc", b"ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3 4\n5 6 7 8\n", grid),
-        ("a", b"NROWS  2\r\nNCOLS  3\r\nXLLCENTER 0\r\nYLLCENTER 0\r\nCELLSIZE 1\r\n1 2 3\r\n5 6 7\r\n", grid),
+        (
+            "a",
+            b"NROWS  2\r\nNCOLS  3\r\nXLLCENTER 0\r\nYLLCENTER 0\r\nCELLSIZE 1\r\n1 2 3\r\n5 6 7\r\n",
+            grid,
+        ),
         ("a.rcp", &[0; 9], "this is a scanner program's own file (export E57 or LAS of it)"),
     ];
     for (name, bytes, found) in cases {
