@@ -3,43 +3,72 @@
 use glam::DVec3;
 use surfel::scene::{Ball, Budget, Camera, ClipBox, ClipPlanes, Settings};
 
-/// What to say of a picture that is all background; `None` where something is seen.
+/// One pixel of so many is as good as none.
+const FEW: usize = 1000;
+
+/// What is little of the picture's height: one part of so many.
+const LITTLE: u32 = 10;
+
+/// What is less than a pixel of it.
+const NOTHING: u32 = 1000;
+
+/// What to say of a picture that is all background, or all but a few pixels for a reason that is plain; `None` where something is seen.
 pub fn hint(pixels: &[[u8; 4]], settings: &Settings, camera: &Camera, ball: &Ball) -> Option<String> {
-    let is_empty = |pixel: &[u8; 4]| match settings.background {
-        None => pixel[3] == 0,
+    let is_seen = |pixel: &&[u8; 4]| match settings.background {
+        None => pixel[3] != 0,
         Some(color) => {
-            pixel.iter().zip(color).all(|(byte, value)| (f32::from(*byte) - 255.0 * value).abs() <= 1.0)
+            pixel.iter().zip(color).any(|(byte, value)| (f32::from(*byte) - 255.0 * value).abs() > 1.0)
         }
     };
-    pixels.iter().all(is_empty).then(|| format!("nothing is seen in it: {}", reason(settings, camera, ball)))
+    let most = pixels.len() / FEW;
+    match pixels.iter().filter(is_seen).take(most + 1).count() {
+        0 => {
+            let reason = beside(camera, ball, NOTHING).unwrap_or_else(|| not_seen(settings));
+            Some(format!("nothing is seen in it: {reason}"))
+        }
+        seen if seen <= most => {
+            let reason = beside(camera, ball, LITTLE)?;
+            Some(format!("next to nothing is seen in it: {reason}"))
+        }
+        _ => None,
+    }
 }
 
-fn reason(settings: &Settings, camera: &Camera, ball: &Ball) -> String {
+/// Why a scene is not seen that lies elsewhere than the camera looks, or takes less than one of `parts` of the picture's height.
+fn beside(camera: &Camera, ball: &Ball, parts: u32) -> Option<String> {
     let center = camera.view_from_world().point(ball.center);
     if let Some(near) = camera.near.filter(|near| *near > (center.z + ball.radius).max(0.0)) {
-        return format!("all of the scene is nearer than --near {near}; try without --near");
+        return Some(format!("all of the scene is nearer than --near {near}; try without --near"));
     }
     let [distance, across] = [center.length(), center.truncate().length()];
     // Without the sign of what rounds to 0.
     let [x, y, z] = (ball.center * 1e4).round().to_array().map(|value| value / 1e4 + 0.0);
     if camera.is_orthographic() {
-        return of_parallel_rays(settings, camera, ball, center, [x, y, z]);
+        return of_parallel_rays(camera, ball, center, [x, y, z], parts);
     }
     let half_fov_deg = 0.5 * camera.fov_y_rad.to_degrees();
     let to_axis_deg = across.atan2(center.z).to_degrees();
     let reach_deg = (ball.radius / distance).min(1.0).asin().to_degrees();
+    let size = small(parts);
     match () {
         () if distance <= ball.radius => {
-            "the eye is inside of the scene; try without --eye, or --backfaces flip".to_owned()
+            Some("the eye is inside of the scene; try without --eye, or --backfaces flip".to_owned())
         }
         // Of the image's corners, which are up to twice as far.
-        () if to_axis_deg > reach_deg + 2.0 * half_fov_deg => format!(
+        () if to_axis_deg > reach_deg + 2.0 * half_fov_deg => Some(format!(
             "the scene is around {x},{y},{z}, {to_axis_deg:.0} degrees from where the camera looks; try without --eye and --target"
-        ),
-        () if reach_deg < half_fov_deg / 1000.0 => format!(
-            "the scene is {distance:.3e} away and smaller than a pixel; try without --eye, or a smaller --fov"
-        ),
-        () => not_seen(settings),
+        )),
+        () if reach_deg < half_fov_deg / f64::from(parts) => Some(format!(
+            "the scene is {distance:.3e} away and {size}; try without --eye, or a smaller --fov"
+        )),
+        () => None,
+    }
+}
+
+fn small(parts: u32) -> &'static str {
+    match parts {
+        LITTLE => "less than a tenth of the picture's height",
+        _ => "smaller than a pixel",
     }
 }
 
@@ -68,25 +97,25 @@ const FACES_AWAY: &str = "what the camera looks at faces away, is seen edge-on, 
 
 /// `center`: the scene's middle in view space.
 fn of_parallel_rays(
-    settings: &Settings,
     camera: &Camera,
     ball: &Ball,
     center: DVec3,
     [x, y, z]: [f64; 3],
-) -> String {
+    parts: u32,
+) -> Option<String> {
     let height = camera.orthographic_height.unwrap_or_default();
     match () {
         () if center.z + ball.radius < camera.near() => {
-            format!("the scene is around {x},{y},{z}, behind the eye; try without --eye")
+            Some(format!("the scene is around {x},{y},{z}, behind the eye; try without --eye"))
         }
         // Of the image's corners, which are up to twice as far.
-        () if center.truncate().length() > ball.radius + height => format!(
+        () if center.truncate().length() > ball.radius + height => Some(format!(
             "the scene is around {x},{y},{z}, beside what the camera shows; try without --eye and --target, or --orthographic fit"
-        ),
-        () if ball.radius < height / 2000.0 => {
-            "the scene is smaller than a pixel; try --orthographic fit".to_owned()
+        )),
+        () if ball.radius < 0.5 * height / f64::from(parts) => {
+            Some(format!("the scene is {}; try --orthographic fit", small(parts)))
         }
-        () => not_seen(settings),
+        () => None,
     }
 }
 
@@ -124,6 +153,26 @@ mod tests {
         };
         assert!(seen(&[[255; 4], [200, 255, 255, 255]], Some([1.0; 3])) && seen(&[[0, 0, 0, 1]], None));
         assert!(!seen(&[[9, 9, 9, 0]], None));
+    }
+
+    #[test]
+    fn a_few_pixels_are_as_good_as_none_where_the_reason_is_plain() {
+        let ball = Ball { center: DVec3::ZERO, radius: 1.0 };
+        let of = |seen: usize, eye: DVec3, orthographic_height| {
+            let mut pixels = vec![[255; 4]; 5000];
+            pixels[..seen].fill([9, 9, 9, 255]);
+            let camera =
+                Camera { eye, target: DVec3::ZERO, fov_y_rad: 0.8, orthographic_height, ..Camera::default() };
+            hint(&pixels, &Settings::default(), &camera, &ball).unwrap_or_default()
+        };
+        let [inside, near, far] = [0.1, 5.0, 80.0].map(|z| DVec3::new(0.0, 0.0, z));
+        assert!(of(5, inside, None).starts_with("next to nothing is seen in it: the eye is inside"));
+        assert!(of(5, far, None).contains("8.000e1 away and less than a tenth of the picture's height"));
+        assert!(of(5, near, Some(50.0)).contains("the scene is less than a tenth"));
+        for (seen, eye, height) in [(6, inside, None), (6, far, None), (5, near, None), (5, near, Some(3.0))]
+        {
+            assert_eq!(of(seen, eye, height), "", "{seen} {eye} {height:?}");
+        }
     }
 
     #[test]

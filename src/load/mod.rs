@@ -15,6 +15,8 @@ mod gltf;
 #[cfg(test)]
 mod hostile;
 mod input;
+#[cfg(any(feature = "gltf", feature = "octrees"))]
+mod json;
 #[cfg(feature = "las")]
 mod las;
 mod lines;

@@ -6,7 +6,7 @@ mod tests;
 
 use std::io::Cursor;
 
-use e57::{CartesianCoordinate, E57Reader, PointCloud, RecordName};
+use e57::{CartesianCoordinate, E57Reader, PointCloud, RecordName, Transform};
 use glam::DVec3;
 
 use super::{Input, Loaded, Model, shade};
@@ -57,8 +57,10 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
         ignored.extend(unread(cloud).filter(|name| !ignored.contains(name)).collect::<Vec<_>>());
     }
     input.step(input.bytes.len());
-    // Where no scan has a pose, all of them may have been put in one place before.
-    if clouds.iter().all(|cloud| cloud.transform.is_none()) || !viewpoints.iter().all(|v| v.place.is_finite())
+    // Where no scan has been moved, all of them may have been put in one place before. One that is still as it was scanned has not.
+    let is_alone = clouds.len() == 1 && clouds[0].transform.is_some() && is_as_scanned(&clouds[0]);
+    if !(is_alone || clouds.iter().any(|cloud| cloud.transform.as_ref().is_some_and(moves)))
+        || !viewpoints.iter().all(|v| v.place.is_finite())
     {
         viewpoints.clear();
     }
@@ -106,6 +108,18 @@ fn viewpoint(cloud: &PointCloud) -> DVec3 {
         let place = &pose.translation;
         DVec3::new(place.x, place.y, place.z)
     })
+}
+
+fn moves(pose: &Transform) -> bool {
+    let (place, turn) = (&pose.translation, &pose.rotation);
+    [place.x, place.y, place.z, turn.x, turn.y, turn.z].iter().any(|value| *value != 0.0)
+}
+
+/// Whether points are told by angles, or by rows and columns, as a scanner sees them. Writers of other clouds leave a pose that moves
+/// nothing, too.
+fn is_as_scanned(cloud: &PointCloud) -> bool {
+    let of_scanner = [RecordName::SphericalRange, RecordName::RowIndex, RecordName::ColumnIndex];
+    cloud.prototype.iter().any(|record| of_scanner.contains(&record.name))
 }
 
 /// Fields of extensions, which may be normals or names of objects.

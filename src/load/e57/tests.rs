@@ -121,6 +121,37 @@ fn the_scanner_stood_at_the_origin_of_its_scans() {
     }
 }
 
+/// A scan of one point, with the pose and one field more.
+fn scan(pose: Option<Transform>, field: Record) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    let mut writer = E57Writer::new(&mut bytes, "file").unwrap();
+    let places = [Record::CARTESIAN_X_F64, Record::CARTESIAN_Y_F64, Record::CARTESIAN_Z_F64];
+    let mut scan = writer.add_pointcloud("one", [&places[..], &[field]].concat()).unwrap();
+    scan.set_transform(pose);
+    scan.add_point([1.0, 2.0, 3.0].map(double).into_iter().chain([RecordValue::Integer(0)]).collect())
+        .unwrap();
+    scan.finalize().unwrap();
+    writer.finalize().unwrap();
+    drop(writer);
+    bytes.into_inner()
+}
+
+/// Programs that write any cloud give it one.
+#[test]
+fn a_pose_that_moves_nothing_tells_a_scanner_only_of_a_scan_in_rows() {
+    let nothing = Some(Transform::default());
+    let row = || of(RecordName::RowIndex, RecordDataType::Integer { min: 0, max: 255 });
+    for (pose, field, is_told) in [
+        (nothing.clone(), Record::INTENSITY_U16, false),
+        (nothing, row(), true),
+        (Some(pose()), Record::INTENSITY_U16, true),
+        (None, row(), false),
+    ] {
+        let told = of_bytes("a.e57", &scan(pose.clone(), field.clone()), parse).unwrap();
+        assert_eq!(!points(&told).viewpoints.is_empty(), is_told, "{pose:?} {field:?}");
+    }
+}
+
 /// Pages of 1024 bytes end with a checksum (CRC-32C), which this makes right again.
 fn repaired(mut bytes: Vec<u8>) -> Vec<u8> {
     for page in bytes.chunks_exact_mut(1024) {

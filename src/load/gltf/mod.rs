@@ -14,7 +14,7 @@ mod tests;
 
 use glam::DVec3;
 
-use super::{Input, Loaded};
+use super::{Input, Loaded, json};
 use crate::{error::Result, notes::Deed};
 use buffers::Buffers;
 use document::Document;
@@ -26,10 +26,8 @@ const HARMLESS: [&str; 4] =
 
 pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     let parts = container::split(input)?;
-    let document: Document<'_> = serde_json::from_slice(parts.json).map_err(|e| {
-        let problem = e.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
-        input.fault("JSON", problem)
-    })?;
+    let document: Document<'_> =
+        serde_json::from_slice(parts.json).map_err(|e| input.fault("JSON", json::problem(&e)))?;
     if !document.asset.version.starts_with("2.") {
         let version: String = document.asset.version.chars().take(40).collect();
         return Err(input.fault("asset", format!("version '{}'; expected 2.0", version.escape_debug())));

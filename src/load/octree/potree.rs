@@ -11,6 +11,7 @@ use crate::{
     load::{
         Limits, LoadOptions,
         beside::{self, Refusal},
+        json,
         las::{Columns, NOISE},
         sniff::{is_potree, without_mark},
     },
@@ -115,10 +116,8 @@ pub(super) fn open(
 /// Reads the metadata; the hierarchy has so many bytes.
 pub(super) fn read(path: &Path, metadata: &[u8], hierarchy_bytes: u64) -> Result<Opened> {
     let refuse = |place: &str, problem: String| Error::input(path, place, problem);
-    let metadata: Metadata = serde_json::from_slice(without_mark(metadata)).map_err(|e| {
-        let problem = e.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
-        refuse("JSON", problem)
-    })?;
+    let metadata: Metadata =
+        serde_json::from_slice(without_mark(metadata)).map_err(|e| refuse("JSON", json::problem(&e)))?;
     let short = |word: &str| word.chars().take(40).collect::<String>().escape_debug().to_string();
     let version = short(&metadata.version);
     if !version.starts_with("2.") {

@@ -93,6 +93,9 @@ pub(super) fn foreign(bytes: &[u8], ending: &str) -> Option<&'static str> {
     if is_iges(bytes) {
         return Some(IGES);
     }
+    if is_grid(text) {
+        return Some("an ESRI grid of heights without places (save it as XYZ or LAS)");
+    }
     // The name of an archive's first file ends with zeros.
     if bytes.get(257..262) == Some(b"ustar") {
         return Some(TAR);
@@ -121,4 +124,14 @@ fn is_dxf(text: &[u8]) -> bool {
 fn is_iges(bytes: &[u8]) -> bool {
     bytes.get(72..80).is_some_and(|tail| tail.starts_with(b"S") && tail[1..].trim_ascii() == b"1")
         && matches!(bytes.get(80), Some(b'\r' | b'\n'))
+}
+
+/// The three lines that no grid of ESRI lacks, among the first six. Its rows would pass for rows of places.
+fn is_grid(text: &[u8]) -> bool {
+    let lines = || text.split(|byte| matches!(byte, b'\n' | b'\r')).filter(|line| !line.is_empty()).take(6);
+    let begins = |line: &[u8], name: &[u8]| {
+        line.get(..name.len()).is_some_and(|word| word.eq_ignore_ascii_case(name))
+            && line.get(name.len()).is_some_and(u8::is_ascii_whitespace)
+    };
+    [&b"ncols"[..], b"nrows", b"cellsize"].iter().all(|name| lines().any(|line| begins(line, name)))
 }

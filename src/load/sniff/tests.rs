@@ -94,6 +94,7 @@ fn models_and_archives_of_others_say_what_to_do() {
     let usd = "this is a USD scene (save it as glTF or OBJ)";
     let tar = "this is a tar archive (unpack it first)";
     let zip = "this is a zip archive (unpack it first)";
+    let grid = "this is an ESRI grid of heights without places (save it as XYZ or LAS)";
     let gaussians = "this is a viewer's own format of Gaussians (save them as PLY)";
     let mut of_tar = vec![0_u8; 1024];
     of_tar[..5].copy_from_slice(b"a.ply");
@@ -102,7 +103,7 @@ fn models_and_archives_of_others_say_what_to_do() {
     let of_iges = format!("{:72}S{:>7}\r\n{:72}G{:>7}\r\n", "A part", 1, "1H,,1H;", 1);
     let of_step = b"ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('a'),'2;1');\n";
     let marked_step = [b"\xef\xbb\xbf\r\n", &of_step[..]].concat();
-    let cases: [(&str, &[u8], &str); 22] = [
+    let cases: [(&str, &[u8], &str); 24] = [
         ("a", of_step, step),
         ("a.obj", &marked_step, step),
         ("a.step", b"something that was cut off", step),
@@ -124,6 +125,12 @@ fn models_and_archives_of_others_say_what_to_do() {
         ("a.dae", b"<?xml version=\"1.0\"?>\n<COLLADA/>", "this is a COLLADA scene (save it as glTF or OBJ)"),
         ("a.svg", b"<?xml version=\"1.0\"?>\n<svg/>", "this is an XML file"),
         ("a.splat", &[1; 64], gaussians),
+        ("a.asc", b"ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3 4\n5 6 7 8\n", grid),
+        (
+            "a",
+            b"NROWS  2\r\nNCOLS  3\r\nXLLCENTER 0\r\nYLLCENTER 0\r\nCELLSIZE 1\r\n1 2 3\r\n5 6 7\r\n",
+            grid,
+        ),
         ("a.rcp", &[0; 9], "this is a scanner program's own file (export E57 or LAS of it)"),
     ];
     for (name, bytes, found) in cases {
@@ -131,6 +138,9 @@ fn models_and_archives_of_others_say_what_to_do() {
         let expected = format!("/{name}: {found}; expected {}", super::expected());
         assert_eq!(error.as_deref(), Some(&*expected), "{name}");
     }
+    // Other words above rows of places are titles.
+    let titles = b"ncols\nnrows 2\ncellsized 1\n1 2 3\n5 6 7\n";
+    assert!(matches!(load_bytes("a.asc", titles), Ok(Model::Points(_))));
     // What can be read is, whatever it is called.
     for name in ["a.dxf", "a.step", "a.tar"] {
         assert!(matches!(load_bytes(name, TRIANGLE_OBJ), Ok(Model::Mesh(_))), "{name}");

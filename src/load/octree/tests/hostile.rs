@@ -1,23 +1,42 @@
 use super::*;
 
+/// Reads all of it.
+fn read(octree: Opened) -> Result<()> {
+    let mut octree = octree?;
+    let all = octree.choose(&|_| true)?;
+    let points = octree.size_of(&all).0;
+    let read = points_of(octree.read(&all, &())?);
+    assert!(read as u64 <= points);
+    Ok(())
+}
+
+fn in_one_line(error: &crate::error::Error) {
+    assert!(error.exit_code() == 1 && !error.to_string().contains('\n'), "{error}");
+}
+
+#[test]
+fn files_cut_anywhere_are_refused() {
+    let octree = octree(40);
+    let copc = octree.copc(1).0;
+    read(of_copc(copc.clone())).unwrap();
+    (0..copc.len()).for_each(|end| in_one_line(&read(of_copc(copc[..end].to_vec())).unwrap_err()));
+    for whole in [octree.potree(1), octree.packed_potree(1)] {
+        read(of_potree(whole.clone())).unwrap();
+        for (file, end) in (0..3).flat_map(|file| (0..whole[file].len()).map(move |end| (file, end))) {
+            let mut files = whole.clone();
+            files[file].truncate(end);
+            in_one_line(&read(of_potree(files)).unwrap_err());
+        }
+    }
+}
+
 /// Whatever bytes are there: an error in one line, or points, without taking long.
 #[test]
 fn hostile_bytes_are_refused_or_read() {
-    let octree = octree(150);
+    // Each node takes the decoder of LAZ as long to begin as thousands of points.
+    let octree = octree(40);
     let (copc, root) = octree.copc(1);
     let potree = [octree.potree(1), octree.packed_potree(1)];
-    let read = |octree: Result<PointOctree<Cursor<Vec<u8>>>>| {
-        let read = octree.and_then(|mut octree| {
-            let all = octree.choose(&|_| true)?;
-            let points = octree.size_of(&all).0;
-            let read = points_of(octree.read(&all, &())?);
-            assert!(read as u64 <= points);
-            Ok(())
-        });
-        if let Err(error) = read {
-            assert!(error.exit_code() == 1 && !error.to_string().contains('\n'), "{error}");
-        }
-    };
     let mut random = SplitMix(11);
     let mut below = |most: usize| (random.bits() % most as u64) as usize;
     for case in 0..40_000 {
@@ -61,10 +80,11 @@ fn hostile_bytes_are_refused_or_read() {
                 bytes.truncate(at + 1);
             }
         }
-        match case % 2 {
+        let read = match case % 2 {
             0 => read(of_copc(copc)),
             _ => read(of_potree(files)),
-        }
+        };
+        read.err().iter().for_each(in_one_line);
     }
 }
 

@@ -204,6 +204,13 @@ fn mutilated_scene_files_are_refused_or_read() {
         builtin = \"sphere\"\nrepresentation = \"mesh\"\ntriangles = 80\n";
     assert_eq!(place.read(text).unwrap().objects.len(), 2);
     let (path, options) = (place.path("scene/scene.toml"), LoadOptions::default());
+    let try_one = |text: &str| {
+        if let Err(error) = parse(&path, text, &options) {
+            let said = error.to_string();
+            assert!(error.exit_code() == 1 && !said.contains('\n'), "{said}");
+        }
+    };
+    (0..text.len()).for_each(|end| try_one(&text[..end]));
     let mut random = crate::math::random::SplitMix(5);
     for _ in 0..20_000 {
         let mut bytes = text.as_bytes().to_vec();
@@ -218,11 +225,8 @@ fn mutilated_scene_files_are_refused_or_read() {
                 bytes.push(b'\n');
             }
         }
-        if let Ok(text) = str::from_utf8(&bytes)
-            && let Err(error) = parse(&path, text, &options)
-        {
-            let said = error.to_string();
-            assert!(error.exit_code() == 1 && !said.contains('\n'), "{said}");
+        if let Ok(text) = str::from_utf8(&bytes) {
+            try_one(text);
         }
     }
 }
