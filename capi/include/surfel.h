@@ -1151,7 +1151,7 @@ SurfelResult surfel_upload(const struct SurfelRenderer *renderer,
  * Records a change of splats of a scene that was made `updatable`: of its object with this number, those from number `first` on become `splats`, of
  * which name, `closed` and `epsilon` mean nothing: of the object's own kind (disks or ellipses; opaque where the object is). How much the
  * surface overlaps itself, and how near another one is, is not measured again. Frames recorded from now on show it. `commands` as for
- * `surfel_upload`; arrays are copied at once, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
+ * `surfel_upload`; arrays are copied at once, into memory that the renderer keeps, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
  * meanwhile.
  */
 SurfelResult surfel_update(const struct SurfelRenderer *renderer,

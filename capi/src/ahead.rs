@@ -37,7 +37,7 @@ pub unsafe extern "C" fn surfel_compile_ahead(
         // SAFETY: as above.
         unsafe {
             with_frame(&frame, &mut SceneList::default(), |frame| {
-                count = renderer.0.compile_ahead(&rendering, frame)?;
+                count = renderer.renderer.compile_ahead(&rendering, frame)?;
                 Ok(())
             })
         }?;

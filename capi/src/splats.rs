@@ -1,6 +1,9 @@
 //! Splats of arrays.
 
-use std::ffi::{c_char, c_void};
+use std::{
+    ffi::{c_char, c_void},
+    mem::take,
+};
 
 use surfel::{
     ash::vk,
@@ -59,48 +62,92 @@ unsafe impl Struct for SurfelSplats {
     }
 }
 
+/// Memory for arrays of C's, kept from one copy of them to the next.
+#[derive(Default)]
+pub struct Arrays {
+    centers: Vec<DVec3>,
+    normals: Vec<Vec3>,
+    radii: Vec<f32>,
+    tangents: [Vec<Vec3>; 2],
+    colors: Vec<[f32; 4]>,
+}
+
+impl Arrays {
+    /// The splats that C means, in this memory, which [`Self::take_back`] wants back.
+    ///
+    /// # Safety
+    /// Pointers are NULL or lead to as much as the struct says.
+    pub unsafe fn splats(&mut self, given: &SurfelSplats) -> Result<Splats> {
+        let Self { centers, normals, radii, tangents: [s, t], colors } = self;
+        let count = given.count;
+        // SAFETY: this function's contract, here and below.
+        unsafe { copy(given.centers.cast(), count, "centers", DVec3::from_array, centers) }?;
+        let vectors = |from: *const f32, name, into: &mut Vec<Vec3>| {
+            // SAFETY: as above.
+            unsafe { copy(from.cast(), count, name, Vec3::from_array, into) }
+        };
+        let is_given = |all: [*const f32; 2]| all.iter().any(|array| !array.is_null());
+        let disks = is_given([given.normals, given.radii]);
+        if disks == is_given([given.tangents_s, given.tangents_t]) && count > 0 {
+            return Err(Failure::invalid("expected normals and radii, or tangentsS and tangentsT"));
+        }
+        match disks {
+            true => {
+                vectors(given.normals, "normals", normals)?;
+                // SAFETY: as above.
+                unsafe { copy(given.radii, count, "radii", |radius| radius, radii) }?;
+            }
+            false => {
+                vectors(given.tangents_s, "tangentsS", s)?;
+                vectors(given.tangents_t, "tangentsT", t)?;
+            }
+        }
+        let color_count = if given.colors.is_null() { 0 } else { given.color_count };
+        if ![0, 1, count].contains(&color_count) || (color_count == 0 && !given.colors.is_null() && count > 0)
+        {
+            let text = format!("colorCount is {}: expected 1 or {count}", given.color_count);
+            return Err(Failure::invalid(text));
+        }
+        // SAFETY: as above.
+        unsafe { copy(given.colors.cast(), color_count, "colors", |color: [f32; 4]| color, colors) }?;
+        // All is there: nothing that fails any more loses what is kept.
+        let shapes = match disks {
+            true => Shapes::Disks { normals: take(normals), radii: take(radii) },
+            false => Shapes::Ellipses { s: take(s), t: take(t) },
+        };
+        let colors = match colors[..] {
+            [] => Colors::unknown(),
+            [color] => Colors::Uniform(color),
+            _ => Colors::Each(take(colors)),
+        };
+        Ok(Splats::new(take(centers), shapes, colors))
+    }
+
+    /// Keeps the memory of splats that are not needed any more.
+    pub fn take_back(&mut self, splats: Splats) {
+        self.centers = splats.positions;
+        match splats.shapes {
+            Shapes::Disks { normals, radii } => (self.normals, self.radii) = (normals, radii),
+            Shapes::Ellipses { s, t } => self.tangents = [s, t],
+        }
+        if let Colors::Each(colors) = splats.colors {
+            self.colors = colors;
+        }
+    }
+}
+
+/// An object of splats, whose arrays are copied.
+///
 /// # Safety
 /// Pointers are NULL or lead to as much as the struct says.
 pub unsafe fn object(given: &SurfelSplats) -> Result<Object> {
-    let count = given.count;
     // SAFETY: this function's contract, here and below.
-    let centers = unsafe { copy(given.centers.cast(), count, "centers", DVec3::from_array) }?;
-    // SAFETY: as above.
-    let vectors = |from: *const f32, name| unsafe { copy(from.cast(), count, name, Vec3::from_array) };
-    let is_given = |all: [*const f32; 2]| all.iter().any(|array| !array.is_null());
-    let disks = is_given([given.normals, given.radii]);
-    if disks == is_given([given.tangents_s, given.tangents_t]) && count > 0 {
-        return Err(Failure::invalid("expected normals and radii, or tangentsS and tangentsT"));
-    }
-    let shapes = match disks {
-        true => Shapes::Disks {
-            normals: vectors(given.normals, "normals")?,
-            // SAFETY: as above.
-            radii: unsafe { copy(given.radii, count, "radii", |radius| radius) }?,
-        },
-        false => Shapes::Ellipses {
-            s: vectors(given.tangents_s, "tangentsS")?,
-            t: vectors(given.tangents_t, "tangentsT")?,
-        },
-    };
-    let color_count = if given.colors.is_null() { 0 } else { given.color_count };
-    if ![0, 1, count].contains(&color_count) || (color_count == 0 && !given.colors.is_null() && count > 0) {
-        let text = format!("colorCount is {}: expected 1 or {count}", given.color_count);
-        return Err(Failure::invalid(text));
-    }
-    // SAFETY: as above.
-    let colors = unsafe { copy(given.colors.cast(), color_count, "colors", |color: [f32; 4]| color) }?;
-    let colors = match colors[..] {
-        [] => Colors::unknown(),
-        [color] => Colors::Uniform(color),
-        _ => Colors::Each(colors),
-    };
+    let splats = unsafe { Arrays::default().splats(given) }?;
     let name = match given.name.is_null() {
         true => "splats",
         // SAFETY: as above.
         false => unsafe { text(given.name, "name") }?,
     };
-    let splats = Splats::new(centers, shapes, colors);
     Ok(Object { name: name.to_owned(), splats, closed: given.closed != vk::FALSE })
 }
 
@@ -120,19 +167,25 @@ pub unsafe fn array<'a, T: Copy>(from: *const T, count: u64, name: &str) -> Resu
     }
 }
 
-/// The same as one of ours.
+/// The same in one of ours, in place of what is in it.
 ///
 /// # Safety
 /// As [`array`].
-pub unsafe fn copy<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> U) -> Result<Vec<U>> {
+pub unsafe fn copy<T: Copy, U>(
+    from: *const T,
+    count: u64,
+    name: &str,
+    of: fn(T) -> U,
+    into: &mut Vec<U>,
+) -> Result<()> {
     // SAFETY: this function's contract.
     let given = unsafe { array(from, count, name) }?;
     let no_memory = |_| Failure {
         code: SurfelResult::OutOfMemory,
         text: format!("{name}: no memory for {count} of them"),
     };
-    let mut all = Vec::new();
-    all.try_reserve_exact(given.len()).map_err(no_memory)?;
-    all.extend(given.iter().map(|value| of(*value)));
-    Ok(all)
+    into.clear();
+    into.try_reserve_exact(given.len()).map_err(no_memory)?;
+    into.extend(given.iter().map(|value| of(*value)));
+    Ok(())
 }
