@@ -156,6 +156,12 @@ pub struct SurfelPreparedSceneInfo {
     pub bytes: u64,
     /// Splats that could not be drawn and are not in it.
     pub left_out: u64,
+    /// How many objects it has, for `surfel_update`: of splats, of those that came with their levels of detail, then of triangles.
+    pub objects: u64,
+    /// Something of it is transparent: frames that show it need `hides` where the rendering has a depth.
+    pub transparent: vk::Bool32,
+    /// 0.
+    pub reserved: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -180,6 +186,9 @@ pub unsafe extern "C" fn surfel_prepared_scene_info(
             triangles: scene.triangle_count(),
             bytes: scene.bytes(),
             left_out: scene.defects.total() as u64,
+            objects: scene.objects.len() as u64,
+            transparent: scene.is_transparent().into(),
+            reserved: 0,
         };
         // SAFETY: as above.
         unsafe { write(info, "info", &filled) }

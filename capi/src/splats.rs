@@ -7,8 +7,8 @@ use std::{
 
 use surfel::{
     ash::vk,
-    glam::{DVec3, Vec3},
-    scene::{Colors, Object, Shapes, Splats},
+    glam::{DVec3, Vec2, Vec3},
+    scene::{Clip, ClipCurve, Clips, Colors, Object, Shapes, Splats},
 };
 
 use crate::{
@@ -16,6 +16,54 @@ use crate::{
     result::{Failure, Result, SurfelResult},
     structs::{Struct, SurfelStructureType},
 };
+
+/// A curve that cuts off a part of a splat: a rational Bézier curve of degree 2 in the splat's own plane, where its rim is u² + v² = 1. What
+/// is to the right of the way from its start to its end is cut off.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelClipCurve {
+    /// Where it starts on the rim, in radians from the first tangent vector toward the second.
+    pub start_rad: f32,
+    /// Where it ends.
+    pub end_rad: f32,
+    /// The control point in the middle, (u, v); the two others are its ends.
+    pub middle: [f32; 2],
+    /// The weight of that point, at least 0: 0 is the chord, 1 a parabola.
+    pub weight: f32,
+}
+
+/// What is cut off a splat.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelClip {
+    /// How many curves cut it, 0 to 2.
+    pub curve_count: u32,
+    /// Of two curves only what both cut off is; else what either does.
+    pub both: vk::Bool32,
+    /// The curves.
+    pub curves: [SurfelClipCurve; 2],
+}
+
+impl SurfelClip {
+    fn clip(&self) -> Result<Clip> {
+        let curve = |SurfelClipCurve { start_rad, end_rad, middle, weight }: SurfelClipCurve| ClipCurve {
+            start_rad,
+            end_rad,
+            middle: Vec2::from_array(middle),
+            weight,
+        };
+        let [first, second] = self.curves.map(curve);
+        let curves = match self.curve_count {
+            0 => [None, None],
+            1 => [Some(first), None],
+            2 => [Some(first), Some(second)],
+            other => {
+                return Err(Failure::invalid(format!("clips: curveCount is {other}: expected at most 2")));
+            }
+        };
+        Ok(Clip::of(curves, self.both != vk::FALSE))
+    }
+}
 
 /// An object of splats, by arrays. Disks have `normals` and `radii`, ellipses have `tangentsS` and `tangentsT`; the other two are NULL.
 #[repr(C)]
@@ -51,6 +99,10 @@ pub struct SurfelSplats {
     pub closed: vk::Bool32,
     /// 0; else it is refused.
     pub reserved: u32,
+    /// What is cut off each ellipse; NULL: nothing. A disk that has a curve is left out.
+    pub clips: *const SurfelClip,
+    /// As `epsilon`, in mean radii of the object; one of both is 0.
+    pub epsilon_in_radii: f64,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -110,6 +162,16 @@ impl Arrays {
         }
         // SAFETY: as above.
         unsafe { copy(given.colors.cast(), color_count, "colors", |color: [f32; 4]| color, colors) }?;
+        let clips = match given.clips.is_null() {
+            true => Clips::default(),
+            // SAFETY: as above.
+            false => Clips::of(
+                unsafe { array(given.clips, count, "clips") }?
+                    .iter()
+                    .map(SurfelClip::clip)
+                    .collect::<Result<_>>()?,
+            ),
+        };
         // All is there: nothing that fails any more loses what is kept.
         let shapes = match disks {
             true => Shapes::Disks { normals: take(normals), radii: take(radii) },
@@ -120,7 +182,7 @@ impl Arrays {
             [color] => Colors::Uniform(color),
             _ => Colors::Each(take(colors)),
         };
-        Ok(Splats::new(take(centers), shapes, colors))
+        Ok(Splats { clips, ..Splats::new(take(centers), shapes, colors) })
     }
 
     /// Keeps the memory of splats that are not needed any more.
@@ -188,4 +250,15 @@ pub unsafe fn copy<T: Copy, U>(
     into.try_reserve_exact(given.len()).map_err(no_memory)?;
     into.extend(given.iter().map(|value| of(*value)));
     Ok(())
+}
+
+/// The same in a list of its own.
+///
+/// # Safety
+/// As [`array`].
+pub unsafe fn copied<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> U) -> Result<Vec<U>> {
+    let mut all = Vec::new();
+    // SAFETY: this function's contract.
+    unsafe { copy(from, count, name, of, &mut all) }?;
+    Ok(all)
 }
