@@ -619,7 +619,7 @@ typedef struct SurfelSplats {
    */
   uint32_t reserved;
   /**
-   * What is cut off each splat; NULL: nothing.
+   * What is cut off each ellipse; NULL: nothing. A disk that has a curve is left out.
    */
   const struct SurfelClip *clips;
   /**
