@@ -210,6 +210,10 @@ enum SurfelStructureType
    * `SurfelMemory`.
    */
   SURFEL_STRUCTURE_TYPE_MEMORY = 13,
+  /**
+   * `SurfelMesh`.
+   */
+  SURFEL_STRUCTURE_TYPE_MESH = 14,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -510,6 +514,47 @@ typedef struct SurfelSceneInfo {
 } SurfelSceneInfo;
 
 /**
+ * A curve that cuts off a part of a splat: a rational Bézier curve of degree 2 in the splat's own plane, where its rim is u² + v² = 1. What
+ * is to the right of the way from its start to its end is cut off.
+ */
+typedef struct SurfelClipCurve {
+  /**
+   * Where it starts on the rim, in radians from the first tangent vector toward the second.
+   */
+  float startRad;
+  /**
+   * Where it ends.
+   */
+  float endRad;
+  /**
+   * The control point in the middle, (u, v); the two others are its ends.
+   */
+  float middle[2];
+  /**
+   * The weight of that point, at least 0: 0 is the chord, 1 a parabola.
+   */
+  float weight;
+} SurfelClipCurve;
+
+/**
+ * What is cut off a splat.
+ */
+typedef struct SurfelClip {
+  /**
+   * How many curves cut it, 0 to 2.
+   */
+  uint32_t curveCount;
+  /**
+   * Of two curves only what both cut off is; else what either does.
+   */
+  VkBool32 both;
+  /**
+   * The curves.
+   */
+  struct SurfelClipCurve curves[2];
+} SurfelClip;
+
+/**
  * An object of splats, by arrays. Disks have `normals` and `radii`, ellipses have `tangentsS` and `tangentsT`; the other two are NULL.
  */
 typedef struct SurfelSplats {
@@ -573,7 +618,73 @@ typedef struct SurfelSplats {
    * 0; else it is refused.
    */
   uint32_t reserved;
+  /**
+   * What is cut off each ellipse; NULL: nothing. A disk that has a curve is left out.
+   */
+  const struct SurfelClip *clips;
+  /**
+   * As `epsilon`, in mean radii of the object; one of both is 0.
+   */
+  double epsilonInRadii;
 } SurfelSplats;
+
+/**
+ * An object of triangles, by arrays, drawn beside splats.
+ */
+typedef struct SurfelMesh {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_MESH`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelMesh)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * Shown in messages, as UTF-8; NULL: `mesh`.
+   */
+  const char *name;
+  /**
+   * How many vertices there are.
+   */
+  uint64_t vertexCount;
+  /**
+   * Their positions in the scene's own space: x, y, z of each.
+   */
+  const double *positions;
+  /**
+   * Their normals, of any length, x, y, z of each. NULL, and where one is 0: the mean of the triangles around it.
+   */
+  const float *normals;
+  /**
+   * Red, green, blue and alpha of each vertex, linear, straight, 0 to 1; NULL: all are the opaque gray of surfaces without colors.
+   */
+  const float *colors;
+  /**
+   * How many colors there are: `vertexCount`, or 1 for all vertices.
+   */
+  uint64_t colorCount;
+  /**
+   * How many triangles there are.
+   */
+  uint64_t triangleCount;
+  /**
+   * Three numbers of vertices of each, counterclockwise seen from outside. A triangle that can't be drawn is left out.
+   */
+  const uint32_t *triangles;
+  /**
+   * The triangles are all of a closed surface: those that face away can't be seen.
+   */
+  VkBool32 closed;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reserved;
+} SurfelMesh;
 
 /**
  * What is known of disks that a host writes on the device, by a compute shader or by copies. All of it may be wrong by being too large, at
@@ -688,6 +799,18 @@ typedef struct SurfelPreparedSceneInfo {
    * Splats that could not be drawn and are not in it.
    */
   uint64_t leftOut;
+  /**
+   * How many objects it has, for `surfel_update`: of splats, of those that came with their levels of detail, then of triangles.
+   */
+  uint64_t objects;
+  /**
+   * Something of it is transparent: frames that show it need `hides` where the rendering has a depth.
+   */
+  VkBool32 transparent;
+  /**
+   * 0.
+   */
+  uint32_t reserved;
 } SurfelPreparedSceneInfo;
 
 /**
@@ -912,6 +1035,20 @@ typedef struct SurfelFrame {
    * `clipFromView` of the frame before.
    */
   double clipFromViewBefore[16];
+  /**
+   * All matrices are of a left-handed world, as of Direct3D, Unity or Unreal, in which what the scenes hold is seen mirrored by (1, 1, -1):
+   * what comes from there is mirrored once more before, by `surfel_scene_transform`.
+   */
+  VkBool32 leftHanded;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reserved;
+  /**
+   * Not 0: a pipeline that is missing is made as long as no more than so many were made in all (`surfel_pipelines_made`); beyond, the frame is
+   * refused, `SURFEL_RESULT_NOT_READY`. A host that asks again and again goes on between.
+   */
+  uint64_t mostPipelines;
 } SurfelFrame;
 
 /**
@@ -1095,6 +1232,14 @@ SurfelResult surfel_scene_add_splats(struct SurfelScene *scene, const struct Sur
 SurfelResult surfel_scene_add_file(struct SurfelScene *scene, const char *path);
 
 /**
+ * Moves all that is in a scene so far, but its lights and lengths of ε, by a matrix of four columns: turns, scales, mirrors or shears it, each splat and
+ * triangle for itself. So what comes from a left-handed world, and is to be seen there, is mirrored once (`leftHanded` in `SurfelFrame`). Not
+ * for what a file has levels of detail of.
+ */
+SurfelResult surfel_scene_transform(struct SurfelScene *scene,
+                                    const double *worldFromObject);
+
+/**
  * Tells a ball around all that is in a scene, for a camera: `center` gets three coordinates.
  */
 SurfelResult surfel_scene_ball(const struct SurfelScene *scene, double *center, double *radius);
@@ -1103,6 +1248,11 @@ SurfelResult surfel_scene_ball(const struct SurfelScene *scene, double *center, 
  * Destroys a scene in the host's memory; NULL is nothing. What was made of it on a device stays.
  */
 void surfel_scene_destroy(struct SurfelScene *scene);
+
+/**
+ * Adds an object of triangles; its arrays are copied. For `surfel_update` it is behind all objects of splats.
+ */
+SurfelResult surfel_scene_add_mesh(struct SurfelScene *scene, const struct SurfelMesh *mesh);
 
 /**
  * Makes a scene of splats that the host writes on the device: each time before a frame reads them, with a barrier to
@@ -1151,7 +1301,7 @@ SurfelResult surfel_upload(const struct SurfelRenderer *renderer,
  * Records a change of splats of a scene that was made `updatable`: of its object with this number, those from number `first` on become `splats`, of
  * which name, `closed` and `epsilon` mean nothing: of the object's own kind (disks or ellipses; opaque where the object is). How much the
  * surface overlaps itself, and how near another one is, is not measured again. Frames recorded from now on show it. `commands` as for
- * `surfel_upload`; arrays are copied at once, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
+ * `surfel_upload`; arrays are copied at once, into memory that the renderer keeps, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
  * meanwhile.
  */
 SurfelResult surfel_update(const struct SurfelRenderer *renderer,
@@ -1232,6 +1382,11 @@ SurfelResult surfel_view_bytes(const struct SurfelView *view, uint64_t *bytes);
  * Destroys a view; NULL is nothing. Its memory is freed when the epoch that is recorded now is done.
  */
 void surfel_view_destroy(struct SurfelView *view);
+
+/**
+ * Tells how many pipelines a renderer has made so far: a frame during which that stays the same has made none.
+ */
+SurfelResult surfel_pipelines_made(const struct SurfelRenderer *renderer, uint64_t *made);
 
 /**
  * Makes all pipelines that frames like this need within such a rendering, wherever their cameras are: `surfel_view_prepare` makes none for

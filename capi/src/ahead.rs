@@ -9,6 +9,20 @@ use crate::{
     view::{SurfelRendering, rendering_of},
 };
 
+/// Tells how many pipelines a renderer has made so far: a frame during which that stays the same has made none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_pipelines_made(
+    renderer: *const SurfelRenderer,
+    made: *mut u64,
+) -> SurfelResult {
+    guard("surfel_pipelines_made", || {
+        // SAFETY: the contract of the header.
+        let (renderer, made) = unsafe { (get(renderer, "renderer")?, Place::new(made, "made")?) };
+        made.write(renderer.renderer.pipelines_made());
+        Ok(())
+    })
+}
+
 /// Makes all pipelines that frames like this need within such a rendering, wherever their cameras are: `surfel_view_prepare` makes none for
 /// them then. Nothing is recorded. `made` gets how many were missing; it may be NULL. It may take long: while the host loads, or on a thread
 /// of its own, while others draw with what is there. A frame is like this that shows scenes of the same kinds (opaque or transparent, disks
@@ -37,7 +51,7 @@ pub unsafe extern "C" fn surfel_compile_ahead(
         // SAFETY: as above.
         unsafe {
             with_frame(&frame, &mut SceneList::default(), |frame| {
-                count = renderer.0.compile_ahead(&rendering, frame)?;
+                count = renderer.renderer.compile_ahead(&rendering, frame)?;
                 Ok(())
             })
         }?;

@@ -76,7 +76,7 @@ pub unsafe extern "C" fn surfel_dynamic_create(
         // SAFETY: the contract of the header.
         let (out, renderer, splats) =
             unsafe { (Out::new(scene, "scene")?, get(renderer, "renderer")?, read(splats, "splats")?) };
-        out.give(SurfelPreparedScene(renderer.0.dynamic(&splats_of(&splats))?))
+        out.give(SurfelPreparedScene(renderer.renderer.dynamic(&splats_of(&splats))?))
     })
 }
 

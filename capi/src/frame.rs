@@ -72,11 +72,23 @@ pub struct SurfelFrame {
     pub view_from_world_before: [f64; 16],
     /// `clipFromView` of the frame before.
     pub clip_from_view_before: [f64; 16],
+    /// All matrices are of a left-handed world, as of Direct3D, Unity or Unreal, in which what the scenes hold is seen mirrored by (1, 1, -1):
+    /// what comes from there is mirrored once more before, by `surfel_scene_transform`.
+    pub left_handed: vk::Bool32,
+    /// 0; else it is refused.
+    pub reserved: u32,
+    /// Not 0: a pipeline that is missing is made as long as no more than so many were made in all (`surfel_pipelines_made`); beyond, the frame is
+    /// refused, `SURFEL_RESULT_NOT_READY`. A host that asks again and again goes on between.
+    pub most_pipelines: u64,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
 unsafe impl Struct for SurfelFrame {
     const TYPE: SurfelStructureType = SurfelStructureType::Frame;
+
+    fn reserved(&self) -> u32 {
+        self.reserved
+    }
 }
 
 /// Memory for the list of a frame's scenes, which is kept between frames, and nothing in it.
@@ -124,7 +136,7 @@ unsafe fn with_scenes<'a>(
     scenes: &mut Vec<Placed<'a>>,
     then: impl FnOnce(&ViewFrame<'_>) -> Result<()>,
 ) -> Result<()> {
-    let count = u64::from(given.scene_count);
+    let (count, left_handed) = (u64::from(given.scene_count), given.left_handed != vk::FALSE);
     // SAFETY: this function's contract, here and below; so many are given.
     let of_scenes: &[*const SurfelPreparedScene] = unsafe { array(given.scenes, count, "scenes") }?;
     // SAFETY: as above.
@@ -141,7 +153,8 @@ unsafe fn with_scenes<'a>(
         // SAFETY: as above.
         let scene: &'a SurfelPreparedScene = unsafe { get(*scene, "a scene") }?;
         let placement = |matrices: &[[f64; 16]], when: &str| {
-            let placed = |matrix| Placement::of_matrix(&DMat4::from_cols_array(matrix));
+            let of = if left_handed { Placement::of_left_handed } else { Placement::of_matrix };
+            let placed = |matrix| of(&DMat4::from_cols_array(matrix));
             let at = matrices.get(i).map(placed).transpose();
             at.map_err(|error| Failure { text: format!("scene {i}{when}: {error}"), ..Failure::from(error) })
         };
@@ -164,14 +177,17 @@ unsafe fn with_scenes<'a>(
         // SAFETY: as above.
         false => Some(depth_image(&unsafe { read(given.hides, "hides") }?)?),
     };
-    let camera = HostCamera {
-        view_from_world: DMat4::from_cols_array(&given.view_from_world),
-        clip_from_view: DMat4::from_cols_array(&given.clip_from_view),
-        flips_y: given.flips_y != vk::FALSE,
+    let camera = |[view_from_world, clip_from_view]: [[f64; 16]; 2]| {
+        let camera = HostCamera {
+            view_from_world: DMat4::from_cols_array(&view_from_world),
+            clip_from_view: DMat4::from_cols_array(&clip_from_view),
+            flips_y: given.flips_y != vk::FALSE,
+        };
+        if left_handed { camera.of_left_handed() } else { camera }
     };
     let matrices_before = [given.view_from_world_before, given.clip_from_view_before];
-    let [view_from_world, clip_from_view] = matrices_before.map(|matrix| DMat4::from_cols_array(&matrix));
-    let was = HostCamera { view_from_world, clip_from_view, ..camera };
+    let was = camera(matrices_before);
+    let camera = camera([given.view_from_world, given.clip_from_view]);
     let moved = matrices_before.as_flattened().iter().any(|number| *number != 0.0);
     then(&ViewFrame {
         scenes,
@@ -180,9 +196,10 @@ unsafe fn with_scenes<'a>(
         settings: &settings,
         corner_px: [given.x, given.y],
         hides,
-        missing: match given.refuses_missing != vk::FALSE {
-            true => MissingPipelines::Refuse,
-            false => MissingPipelines::Make,
+        missing: match (given.refuses_missing != vk::FALSE, given.most_pipelines) {
+            (true, _) => MissingPipelines::Refuse,
+            (false, 0) => MissingPipelines::Make,
+            (false, most) => MissingPipelines::UpTo(most),
         },
         profile: (given.timed != vk::FALSE).then_some(Profile::Times),
     })

@@ -19,6 +19,8 @@ mod device;
 mod scene;
 mod splats;
 
+mod mesh;
+
 mod dynamic;
 mod renderer;
 

@@ -3,7 +3,7 @@
 use std::{
     ffi::{c_char, c_void},
     path::Path,
-    sync::Arc,
+    sync::{Arc, Mutex, PoisonError},
 };
 
 use surfel::{
@@ -16,12 +16,16 @@ use crate::{
     handle::{Out, destroy, get, get_mut, text},
     result::{SurfelResult, guard},
     scene::SurfelScene,
-    splats::SurfelSplats,
+    splats::{Arrays, SurfelSplats},
     structs::{Struct, SurfelStructureType, read, write},
 };
 
 /// Pipelines, for all views and scenes of a device. May be used by several threads at once.
-pub struct SurfelRenderer(pub Arc<Renderer>);
+pub struct SurfelRenderer {
+    pub renderer: Arc<Renderer>,
+    /// For copies of C's arrays, while no update has them: as many as were under way at once.
+    arrays: Mutex<Vec<Arrays>>,
+}
 
 /// A scene on the device: uploaded, or written there by the host. Frames of several threads may show it at once.
 pub struct SurfelPreparedScene(pub PreparedScene);
@@ -64,7 +68,8 @@ pub unsafe extern "C" fn surfel_renderer_create(
                 folder = Some(Path::new(unsafe { text(cache_folder, "cacheFolder") }?));
             }
         }
-        out.give(SurfelRenderer(Arc::new(Renderer::new(&device.0, folder)?)))
+        let renderer = Arc::new(Renderer::new(&device.0, folder)?);
+        out.give(SurfelRenderer { renderer, arrays: Mutex::default() })
     })
 }
 
@@ -93,14 +98,14 @@ pub unsafe extern "C" fn surfel_upload(
             return Err(crate::handle::null("commands"));
         }
         // SAFETY: as above.
-        out.give(SurfelPreparedScene(unsafe { renderer.0.upload(commands, &scene.0) }?))
+        out.give(SurfelPreparedScene(unsafe { renderer.renderer.upload(commands, &scene.0) }?))
     })
 }
 
 /// Records a change of splats of a scene that was made `updatable`: of its object with this number, those from number `first` on become `splats`, of
 /// which name, `closed` and `epsilon` mean nothing: of the object's own kind (disks or ellipses; opaque where the object is). How much the
 /// surface overlaps itself, and how near another one is, is not measured again. Frames recorded from now on show it. `commands` as for
-/// `surfel_upload`; arrays are copied at once, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
+/// `surfel_upload`; arrays are copied at once, into memory that the renderer keeps, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
 /// meanwhile.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_update(
@@ -119,10 +124,17 @@ pub unsafe extern "C" fn surfel_update(
             return Err(crate::handle::null("commands"));
         }
         let number = usize::try_from(object).unwrap_or(usize::MAX);
+        let kept = || renderer.arrays.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut arrays = kept().pop().unwrap_or_default();
         // SAFETY: as above.
-        let splats = unsafe { crate::splats::object(&given) }?.splats;
-        // SAFETY: as above.
-        Ok(unsafe { renderer.0.update(commands, &mut scene.0, number, first, &splats) }?)
+        let updated = unsafe { arrays.splats(&given) }.and_then(|splats| {
+            // SAFETY: as above.
+            let updated = unsafe { renderer.renderer.update(commands, &mut scene.0, number, first, &splats) };
+            arrays.take_back(splats);
+            Ok(updated?)
+        });
+        kept().push(arrays);
+        updated
     })
 }
 
@@ -144,6 +156,12 @@ pub struct SurfelPreparedSceneInfo {
     pub bytes: u64,
     /// Splats that could not be drawn and are not in it.
     pub left_out: u64,
+    /// How many objects it has, for `surfel_update`: of splats, of those that came with their levels of detail, then of triangles.
+    pub objects: u64,
+    /// Something of it is transparent: frames that show it need `hides` where the rendering has a depth.
+    pub transparent: vk::Bool32,
+    /// 0.
+    pub reserved: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -168,6 +186,9 @@ pub unsafe extern "C" fn surfel_prepared_scene_info(
             triangles: scene.triangle_count(),
             bytes: scene.bytes(),
             left_out: scene.defects.total() as u64,
+            objects: scene.objects.len() as u64,
+            transparent: scene.is_transparent().into(),
+            reserved: 0,
         };
         // SAFETY: as above.
         unsafe { write(info, "info", &filled) }

@@ -5,14 +5,15 @@ use std::ffi::{c_char, c_void};
 use surfel::{
     Error, Scene,
     ash::vk,
-    scene::{Light, MOST_LIGHTS, Object},
+    glam::{DAffine3, DMat4, DVec4},
+    scene::{Epsilon, Light, MOST_LIGHTS, Object, Splats, is_invertible},
 };
 
 use crate::{
     handle::{Out, Place, destroy, get, get_mut, text},
     result::{Failure, Result, SurfelResult, guard},
     settings::set,
-    splats::{SurfelSplats, object},
+    splats::{SurfelSplats, array, object},
     structs::{Struct, SurfelStructureType, read},
 };
 
@@ -116,16 +117,22 @@ pub unsafe extern "C" fn surfel_scene_add_splats(
         let (scene, splats) = unsafe { (get_mut(scene, "scene")?, read(splats, "splats")?) };
         // SAFETY: the contract of the header.
         let object = unsafe { object(&splats) }?;
-        add(&mut scene.0, object, splats.epsilon)
+        add(&mut scene.0, object, [splats.epsilon, splats.epsilon_in_radii])
     })
 }
 
-fn add(scene: &mut Scene, object: Object, epsilon: f64) -> Result<()> {
-    let epsilon = match epsilon {
-        0.0 => None,
-        length if length > 0.0 && length.is_finite() => Some(surfel::scene::Epsilon::Length(length)),
-        other => {
-            let problem = format!("{other}: expected a finite length above 0, or 0 for that of the settings");
+/// `epsilons`: as a length, and in radii.
+fn add(scene: &mut Scene, object: Object, epsilons: [f64; 2]) -> Result<()> {
+    if let Some(wrong) = epsilons.iter().find(|epsilon| !(**epsilon >= 0.0 && epsilon.is_finite())) {
+        let problem = format!("{wrong}: expected a finite number above 0, or 0 for that of the settings");
+        return Err(Error::option("epsilon", problem).into());
+    }
+    let epsilon = match epsilons {
+        [0.0, 0.0] => None,
+        [length, 0.0] => Some(Epsilon::Length(length)),
+        [0.0, radii] => Some(Epsilon::Radii(radii)),
+        [length, radii] => {
+            let problem = format!("{length}, and {radii} radii: expected one of both");
             return Err(Error::option("epsilon", problem).into());
         }
     };
@@ -186,6 +193,38 @@ fn add_file(scene: &mut Scene, path: &std::ffi::CStr) -> Result<()> {
 fn add_file(_scene: &mut Scene, _path: &std::ffi::CStr) -> Result<()> {
     let text = "the library was built without the feature 'files'".to_owned();
     Err(Failure { code: SurfelResult::Unsupported, text })
+}
+
+/// Moves all that is in a scene so far, but its lights and lengths of ε, by a matrix of four columns: turns, scales, mirrors or shears it, each splat and
+/// triangle for itself. So what comes from a left-handed world, and is to be seen there, is mirrored once (`leftHanded` in `SurfelFrame`). Not
+/// for what a file has levels of detail of.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_scene_transform(
+    scene: *mut SurfelScene,
+    world_from_object: *const f64,
+) -> SurfelResult {
+    guard("surfel_scene_transform", || {
+        // SAFETY: the contract of the header, here and below.
+        let scene = &mut unsafe { get_mut(scene, "scene") }?.0;
+        // SAFETY: as above.
+        let matrix = unsafe { array(world_from_object.cast::<[f64; 16]>(), 1, "worldFromObject") }?[0];
+        let matrix = DMat4::from_cols_array(&matrix);
+        let map = DAffine3::from_mat4(matrix);
+        let refused = |problem: &str| Err(Error::option("worldFromObject", problem).into());
+        if matrix.row(3) != DVec4::W || !is_invertible(&map) {
+            return refused("expected an affine map that can be undone");
+        }
+        if scene.has_levels() {
+            return refused("the scene has levels of detail, which are where their file says");
+        }
+        for object in &mut scene.objects {
+            object.splats = std::mem::replace(&mut object.splats, Splats::none()).transformed(&map);
+        }
+        for object in &mut scene.meshes {
+            object.mesh = object.mesh.clone().transformed(&map);
+        }
+        Ok(())
+    })
 }
 
 /// Tells a ball around all that is in a scene, for a camera: `center` gets three coordinates.

@@ -1,11 +1,14 @@
 //! Splats of arrays.
 
-use std::ffi::{c_char, c_void};
+use std::{
+    ffi::{c_char, c_void},
+    mem::take,
+};
 
 use surfel::{
     ash::vk,
-    glam::{DVec3, Vec3},
-    scene::{Colors, Object, Shapes, Splats},
+    glam::{DVec3, Vec2, Vec3},
+    scene::{Clip, ClipCurve, Clips, Colors, Object, Shapes, Splats},
 };
 
 use crate::{
@@ -13,6 +16,54 @@ use crate::{
     result::{Failure, Result, SurfelResult},
     structs::{Struct, SurfelStructureType},
 };
+
+/// A curve that cuts off a part of a splat: a rational Bézier curve of degree 2 in the splat's own plane, where its rim is u² + v² = 1. What
+/// is to the right of the way from its start to its end is cut off.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelClipCurve {
+    /// Where it starts on the rim, in radians from the first tangent vector toward the second.
+    pub start_rad: f32,
+    /// Where it ends.
+    pub end_rad: f32,
+    /// The control point in the middle, (u, v); the two others are its ends.
+    pub middle: [f32; 2],
+    /// The weight of that point, at least 0: 0 is the chord, 1 a parabola.
+    pub weight: f32,
+}
+
+/// What is cut off a splat.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelClip {
+    /// How many curves cut it, 0 to 2.
+    pub curve_count: u32,
+    /// Of two curves only what both cut off is; else what either does.
+    pub both: vk::Bool32,
+    /// The curves.
+    pub curves: [SurfelClipCurve; 2],
+}
+
+impl SurfelClip {
+    fn clip(&self) -> Result<Clip> {
+        let curve = |SurfelClipCurve { start_rad, end_rad, middle, weight }: SurfelClipCurve| ClipCurve {
+            start_rad,
+            end_rad,
+            middle: Vec2::from_array(middle),
+            weight,
+        };
+        let [first, second] = self.curves.map(curve);
+        let curves = match self.curve_count {
+            0 => [None, None],
+            1 => [Some(first), None],
+            2 => [Some(first), Some(second)],
+            other => {
+                return Err(Failure::invalid(format!("clips: curveCount is {other}: expected at most 2")));
+            }
+        };
+        Ok(Clip::of(curves, self.both != vk::FALSE))
+    }
+}
 
 /// An object of splats, by arrays. Disks have `normals` and `radii`, ellipses have `tangentsS` and `tangentsT`; the other two are NULL.
 #[repr(C)]
@@ -48,6 +99,10 @@ pub struct SurfelSplats {
     pub closed: vk::Bool32,
     /// 0; else it is refused.
     pub reserved: u32,
+    /// What is cut off each ellipse; NULL: nothing. A disk that has a curve is left out.
+    pub clips: *const SurfelClip,
+    /// As `epsilon`, in mean radii of the object; one of both is 0.
+    pub epsilon_in_radii: f64,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -59,48 +114,102 @@ unsafe impl Struct for SurfelSplats {
     }
 }
 
+/// Memory for arrays of C's, kept from one copy of them to the next.
+#[derive(Default)]
+pub struct Arrays {
+    centers: Vec<DVec3>,
+    normals: Vec<Vec3>,
+    radii: Vec<f32>,
+    tangents: [Vec<Vec3>; 2],
+    colors: Vec<[f32; 4]>,
+}
+
+impl Arrays {
+    /// The splats that C means, in this memory, which [`Self::take_back`] wants back.
+    ///
+    /// # Safety
+    /// Pointers are NULL or lead to as much as the struct says.
+    pub unsafe fn splats(&mut self, given: &SurfelSplats) -> Result<Splats> {
+        let Self { centers, normals, radii, tangents: [s, t], colors } = self;
+        let count = given.count;
+        // SAFETY: this function's contract, here and below.
+        unsafe { copy(given.centers.cast(), count, "centers", DVec3::from_array, centers) }?;
+        let vectors = |from: *const f32, name, into: &mut Vec<Vec3>| {
+            // SAFETY: as above.
+            unsafe { copy(from.cast(), count, name, Vec3::from_array, into) }
+        };
+        let is_given = |all: [*const f32; 2]| all.iter().any(|array| !array.is_null());
+        let disks = is_given([given.normals, given.radii]);
+        if disks == is_given([given.tangents_s, given.tangents_t]) && count > 0 {
+            return Err(Failure::invalid("expected normals and radii, or tangentsS and tangentsT"));
+        }
+        match disks {
+            true => {
+                vectors(given.normals, "normals", normals)?;
+                // SAFETY: as above.
+                unsafe { copy(given.radii, count, "radii", |radius| radius, radii) }?;
+            }
+            false => {
+                vectors(given.tangents_s, "tangentsS", s)?;
+                vectors(given.tangents_t, "tangentsT", t)?;
+            }
+        }
+        let color_count = if given.colors.is_null() { 0 } else { given.color_count };
+        if ![0, 1, count].contains(&color_count) || (color_count == 0 && !given.colors.is_null() && count > 0)
+        {
+            let text = format!("colorCount is {}: expected 1 or {count}", given.color_count);
+            return Err(Failure::invalid(text));
+        }
+        // SAFETY: as above.
+        unsafe { copy(given.colors.cast(), color_count, "colors", |color: [f32; 4]| color, colors) }?;
+        let clips = match given.clips.is_null() {
+            true => Clips::default(),
+            // SAFETY: as above.
+            false => Clips::of(
+                unsafe { array(given.clips, count, "clips") }?
+                    .iter()
+                    .map(SurfelClip::clip)
+                    .collect::<Result<_>>()?,
+            ),
+        };
+        // All is there: nothing that fails any more loses what is kept.
+        let shapes = match disks {
+            true => Shapes::Disks { normals: take(normals), radii: take(radii) },
+            false => Shapes::Ellipses { s: take(s), t: take(t) },
+        };
+        let colors = match colors[..] {
+            [] => Colors::unknown(),
+            [color] => Colors::Uniform(color),
+            _ => Colors::Each(take(colors)),
+        };
+        Ok(Splats { clips, ..Splats::new(take(centers), shapes, colors) })
+    }
+
+    /// Keeps the memory of splats that are not needed any more.
+    pub fn take_back(&mut self, splats: Splats) {
+        self.centers = splats.positions;
+        match splats.shapes {
+            Shapes::Disks { normals, radii } => (self.normals, self.radii) = (normals, radii),
+            Shapes::Ellipses { s, t } => self.tangents = [s, t],
+        }
+        if let Colors::Each(colors) = splats.colors {
+            self.colors = colors;
+        }
+    }
+}
+
+/// An object of splats, whose arrays are copied.
+///
 /// # Safety
 /// Pointers are NULL or lead to as much as the struct says.
 pub unsafe fn object(given: &SurfelSplats) -> Result<Object> {
-    let count = given.count;
     // SAFETY: this function's contract, here and below.
-    let centers = unsafe { copy(given.centers.cast(), count, "centers", DVec3::from_array) }?;
-    // SAFETY: as above.
-    let vectors = |from: *const f32, name| unsafe { copy(from.cast(), count, name, Vec3::from_array) };
-    let is_given = |all: [*const f32; 2]| all.iter().any(|array| !array.is_null());
-    let disks = is_given([given.normals, given.radii]);
-    if disks == is_given([given.tangents_s, given.tangents_t]) && count > 0 {
-        return Err(Failure::invalid("expected normals and radii, or tangentsS and tangentsT"));
-    }
-    let shapes = match disks {
-        true => Shapes::Disks {
-            normals: vectors(given.normals, "normals")?,
-            // SAFETY: as above.
-            radii: unsafe { copy(given.radii, count, "radii", |radius| radius) }?,
-        },
-        false => Shapes::Ellipses {
-            s: vectors(given.tangents_s, "tangentsS")?,
-            t: vectors(given.tangents_t, "tangentsT")?,
-        },
-    };
-    let color_count = if given.colors.is_null() { 0 } else { given.color_count };
-    if ![0, 1, count].contains(&color_count) || (color_count == 0 && !given.colors.is_null() && count > 0) {
-        let text = format!("colorCount is {}: expected 1 or {count}", given.color_count);
-        return Err(Failure::invalid(text));
-    }
-    // SAFETY: as above.
-    let colors = unsafe { copy(given.colors.cast(), color_count, "colors", |color: [f32; 4]| color) }?;
-    let colors = match colors[..] {
-        [] => Colors::unknown(),
-        [color] => Colors::Uniform(color),
-        _ => Colors::Each(colors),
-    };
+    let splats = unsafe { Arrays::default().splats(given) }?;
     let name = match given.name.is_null() {
         true => "splats",
         // SAFETY: as above.
         false => unsafe { text(given.name, "name") }?,
     };
-    let splats = Splats::new(centers, shapes, colors);
     Ok(Object { name: name.to_owned(), splats, closed: given.closed != vk::FALSE })
 }
 
@@ -120,19 +229,36 @@ pub unsafe fn array<'a, T: Copy>(from: *const T, count: u64, name: &str) -> Resu
     }
 }
 
-/// The same as one of ours.
+/// The same in one of ours, in place of what is in it.
 ///
 /// # Safety
 /// As [`array`].
-pub unsafe fn copy<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> U) -> Result<Vec<U>> {
+pub unsafe fn copy<T: Copy, U>(
+    from: *const T,
+    count: u64,
+    name: &str,
+    of: fn(T) -> U,
+    into: &mut Vec<U>,
+) -> Result<()> {
     // SAFETY: this function's contract.
     let given = unsafe { array(from, count, name) }?;
     let no_memory = |_| Failure {
         code: SurfelResult::OutOfMemory,
         text: format!("{name}: no memory for {count} of them"),
     };
+    into.clear();
+    into.try_reserve_exact(given.len()).map_err(no_memory)?;
+    into.extend(given.iter().map(|value| of(*value)));
+    Ok(())
+}
+
+/// The same in a list of its own.
+///
+/// # Safety
+/// As [`array`].
+pub unsafe fn copied<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> U) -> Result<Vec<U>> {
     let mut all = Vec::new();
-    all.try_reserve_exact(given.len()).map_err(no_memory)?;
-    all.extend(given.iter().map(|value| of(*value)));
+    // SAFETY: this function's contract.
+    unsafe { copy(from, count, name, of, &mut all) }?;
     Ok(all)
 }

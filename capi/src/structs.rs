@@ -38,6 +38,8 @@ pub enum SurfelStructureType {
     MemoryRequest = 12,
     /// `SurfelMemory`.
     Memory = 13,
+    /// `SurfelMesh`.
+    Mesh = 14,
 }
 
 /// No struct is larger in any version: a size beyond is none that a header gave it.

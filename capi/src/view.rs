@@ -16,7 +16,7 @@ use crate::{
     images::{SurfelHostImage, host_image},
     renderer::SurfelRenderer,
     result::{Failure, Result, SurfelResult, guard},
-    splats::{array, copy},
+    splats::array,
     structs::{Struct, SurfelStructureType, read},
 };
 
@@ -84,7 +84,7 @@ pub unsafe fn rendering_of(given: &SurfelRendering) -> Result<Rendering> {
         return Err(Failure::invalid(text));
     }
     // SAFETY: this function's contract.
-    let color_formats = unsafe { copy(given.color_formats, count.into(), "colorFormats", |format| format) }?;
+    let color_formats = unsafe { array(given.color_formats, count.into(), "colorFormats") }?.to_vec();
     let samples = vk::SampleCountFlags::from_raw(given.samples.max(1));
     let reversed = given.compare == vk::CompareOp::NEVER;
     Ok(Rendering {
@@ -111,7 +111,7 @@ pub unsafe extern "C" fn surfel_view_create(
         let (out, renderer) = unsafe { (Out::new(view, "view")?, get(renderer, "renderer")?) };
         // SAFETY: as above.
         let rendering = unsafe { rendering_of(&read(rendering, "rendering")?) }?;
-        let renderer = Arc::clone(&renderer.0);
+        let renderer = Arc::clone(&renderer.renderer);
         out.give(SurfelView {
             view: View::new(&renderer, &rendering)?,
             renderer,

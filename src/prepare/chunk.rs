@@ -196,7 +196,7 @@ impl Chunk {
         if !clips.is_empty() {
             staging.push(&buffers[buffers.len() - 1], first * size_of::<ClipVectors>() as u64, clips)?;
         }
-        (uploader.submit)(staging)
+        uploader.submit(staging)
     }
 
     /// Puts what decides about its levels of detail on the device, if there is one, and to its blocks.
@@ -215,7 +215,7 @@ impl Chunk {
             let bytes: &[u8] = bytemuck::cast_slice(words);
             let mut staging = Staging::new(uploader.device, "upload of levels", bytes.len() as u64)?;
             staging.push(&memory.buffers[2], at, bytes)?;
-            (uploader.submit)(staging)?;
+            uploader.submit(staging)?;
         }
         Ok(())
     }

@@ -100,9 +100,9 @@ impl DynamicSplats {
     }
 
     /// Nothing is known of where which are.
-    fn blocks(&self) -> Vec<Block> {
+    fn blocks(&self) -> impl Iterator<Item = Block> + use<'_> {
         let [lo, hi] = self.bounds;
-        let block = |first: u32| Block {
+        let block = move |first: u32| Block {
             count: BLOCK_SPLATS.min(self.count - first),
             center: 0.5 * (lo + hi),
             radius: 0.5 * (hi - lo).length(),
@@ -112,7 +112,7 @@ impl DynamicSplats {
             largest_radius: self.largest_radius,
             levels: None,
         };
-        (0..self.count).step_by(BLOCK_SPLATS as usize).map(block).collect()
+        (0..self.count).step_by(BLOCK_SPLATS as usize).map(block)
     }
 }
 
@@ -175,9 +175,13 @@ impl PreparedScene {
         chunk.bounds = splats.bounds;
         chunk.rebase.origin = splats.origin;
         chunk.largest_radius = splats.largest_radius;
-        chunk.radii = vec![RadiusStep { count: splats.count, radius: splats.largest_radius }];
+        // In memory that stays, with room for as many as there may be.
+        chunk.radii.clear();
+        chunk.radii.push(RadiusStep { count: splats.count, radius: splats.largest_radius });
         chunk.inverse_overlap = (splats.overlap * MEAN_WEIGHT).recip();
-        chunk.blocks = splats.blocks();
+        chunk.blocks.clear();
+        chunk.blocks.reserve(splats.capacity.div_ceil(BLOCK_SPLATS) as usize);
+        chunk.blocks.extend(splats.blocks());
         Ok(())
     }
 
@@ -235,7 +239,7 @@ mod tests {
             transparent: false,
         };
         plain.check(1000).unwrap();
-        assert_eq!(plain.blocks().len(), 1);
+        assert_eq!(plain.blocks().count(), 1);
         for wrong in [
             DynamicSplats { capacity: 0, ..plain },
             DynamicSplats { capacity: 1001, ..plain },

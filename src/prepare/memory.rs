@@ -3,7 +3,7 @@
 use ash::vk;
 
 use crate::{
-    error::Result,
+    error::{Error, Result},
     vk::{
         Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolSizes, SealedPool,
         SetLayout, Staging,
@@ -47,6 +47,16 @@ pub(super) struct ChunkMemory {
 }
 
 impl Uploader<'_> {
+    /// Has a batch recorded: what is on the device else would be whatever was there before, as which no scene may be drawn.
+    pub fn submit(&mut self, batch: Staging) -> Result<()> {
+        let is_recorded = batch.is_recorded();
+        (self.submit)(batch)?;
+        match is_recorded() {
+            true => Ok(()),
+            false => Err(Error::option("submit", "a batch of uploads was not recorded")),
+        }
+    }
+
     /// A buffer of device memory that is filled by uploads.
     pub fn buffer(&self, name: &str, size: u64, usage: vk::BufferUsageFlags) -> Result<Buffer> {
         let usage = usage | vk::BufferUsageFlags::TRANSFER_DST;

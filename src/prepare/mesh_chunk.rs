@@ -180,7 +180,7 @@ impl PackedMesh {
             for (i, batch) in content.chunks(BATCH_BYTES).enumerate() {
                 let mut staging = Staging::new(uploader.device, "upload of a mesh", batch.len() as u64)?;
                 staging.push(buffer, (i * BATCH_BYTES) as u64, batch)?;
-                (uploader.submit)(staging)?;
+                uploader.submit(staging)?;
             }
         }
         ChunkMemory::new(uploader, &format!("mesh {number}"), buffers, named)

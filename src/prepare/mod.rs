@@ -57,7 +57,7 @@ use memory::Uploader;
 pub(crate) use updatable::Changes;
 
 use crate::{
-    error::Result,
+    error::{Error, Result},
     scene::{DefectCounts, Light, Scene, Storage},
     vk::{Device, Limits, Staging},
 };
@@ -128,11 +128,11 @@ impl PreparedScene {
 }
 
 /// Uploads a scene, in chunks within `limits`. Splats with a defect are left out and counted. `submit` runs one batch of
-/// uploads, of which a chunk has several: our own queue, or the host's, which may defer it as long as it comes before the
+/// uploads, of which a chunk has several, and records it before it returns: for our own queue, or the host's, which may defer the submission as long as it comes before the
 /// first frame and the batch lives until then. `progress` is called with splats done and splats in all.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Option`] for an object of which a list is shorter or longer than that of its positions, for lights or an ε that are none, and for a scene that is to be updatable and can't be; whatever the allocator, the driver or `submit` answers.
+/// [`crate::ErrorKind::Option`] for an object of which a list is shorter or longer than that of its positions, for lights or an ε that are none, for a scene that is to be updatable and can't be, for a layout of another device, and for a batch that `submit` did not record; whatever the allocator, the driver or `submit` answers.
 pub fn prepare(
     device: &Device,
     limits: &Limits,
@@ -141,6 +141,13 @@ pub fn prepare(
     submit: &mut dyn FnMut(Staging) -> Result<()>,
     progress: &dyn Fn(u64, u64),
 ) -> Result<PreparedScene> {
+    if !layout.set().is_of(device) {
+        return Err(Error::option("layout", "is another device's"));
+    }
+    // No buffer is larger than this device can bind, whatever is asked for.
+    let own = device.facts().limits.max_storage_buffer_range;
+    let max_storage_buffer_range = limits.max_storage_buffer_range.min(own);
+    let limits = &Limits { max_storage_buffer_range, ..*limits };
     cut(Some(Uploader { device, layout, submit }), limits, scene, progress)
 }
 

@@ -98,7 +98,7 @@ impl SetLayout {
     }
 
     /// Whether it is of this device.
-    pub(super) fn is_of(&self, device: &Device) -> bool {
+    pub(crate) fn is_of(&self, device: &Device) -> bool {
         self.owned.device.is(device)
     }
 

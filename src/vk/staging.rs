@@ -1,5 +1,10 @@
 //! Uploads: bytes go to a buffer that the host can write, from there to the device's own by a copy.
 
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
 use ash::vk;
 
 use super::{
@@ -16,6 +21,7 @@ pub struct Staging {
     buffer: Buffer,
     used: usize,
     copies: Vec<(vk::Buffer, vk::BufferCopy)>,
+    recorded: Arc<AtomicBool>,
 }
 
 impl Staging {
@@ -26,7 +32,7 @@ impl Staging {
     pub fn new(device: &Device, name: &str, bytes: u64) -> Result<Self> {
         let desc = BufferDesc { name, size: bytes, usage: vk::BufferUsageFlags::TRANSFER_SRC };
         let buffer = Buffer::new(device, desc, MemoryUse::Upload)?;
-        Ok(Self { device: device.clone(), buffer, used: 0, copies: Vec::new() })
+        Ok(Self { device: device.clone(), buffer, used: 0, copies: Vec::new(), recorded: Arc::default() })
     }
 
     /// Adds bytes for `target`, whose usage includes `TRANSFER_DST`, from its byte `offset` on.
@@ -55,6 +61,12 @@ impl Staging {
         Ok(())
     }
 
+    /// Tells whether it was recorded, also once it is gone.
+    pub(crate) fn is_recorded(&self) -> impl Fn() -> bool + use<> {
+        let recorded = self.recorded.clone();
+        move || recorded.load(Ordering::Acquire)
+    }
+
     /// Records all copies and what makes them visible to the vertex and compute stages of every later command, and as
     /// indices.
     ///
@@ -71,6 +83,7 @@ impl Staging {
             }
             make_visible(&self.device, commands);
         }
+        self.recorded.store(true, Ordering::Release);
     }
 }
 

@@ -209,7 +209,7 @@ pub fn ran_alone(test: &str, environment: &[(&str, &OsStr)]) -> bool {
     }
     let mut program = Command::new(std::env::current_exe().unwrap());
     let output = program
-        .args(["--exact", test, "--nocapture"])
+        .args(["--exact", test, "--nocapture", "--include-ignored"])
         .env(ALONE, "1")
         .envs(environment.iter().copied())
         .output()

@@ -54,6 +54,11 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
+/// What this process has from the heap now.
+pub fn live_bytes() -> usize {
+    LIVE.load(Ordering::Relaxed)
+}
+
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 

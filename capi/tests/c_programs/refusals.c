@@ -185,6 +185,7 @@ int main(int argc, char **argv) {
         SurfelRenderer *renderer;
         IS(INVALID_ARGUMENT, surfel_renderer_create(NULL, NULL, &renderer), "device is NULL");
         OK(surfel_renderer_create(device, NULL, &renderer));
+        shapes(engine, device, renderer);
         dynamic(engine, device, renderer);
         steady(engine, device, renderer);
         objects(engine, device, renderer);

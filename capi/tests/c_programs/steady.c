@@ -37,9 +37,49 @@ static SurfelHostImage image(const Attachment *given, VkPipelineStageFlags2 stag
                              .afterLayout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL};
 }
 
+enum { COUNT = 2000, PART = 600 };
+
+/* A scene whose splats change, as `splats` is. */
+static SurfelPreparedScene *upload_updatable(Engine *engine, SurfelRenderer *renderer, const SurfelSplats *splats) {
+    const SurfelSceneInfo made = {.sType = SURFEL_STRUCTURE_TYPE_SCENE_INFO, .size = sizeof made, .updatable = VK_TRUE};
+    SurfelScene *scene;
+    OK(surfel_scene_create(&made, &scene));
+    OK(surfel_scene_add_splats(scene, splats));
+    SurfelPreparedScene *prepared;
+    engine_begin(engine);
+    OK(surfel_upload(renderer, engine->commands, scene, &prepared));
+    surfel_scene_destroy(scene);
+    engine_begin_rendering(engine, 1);
+    engine_end_rendering(engine);
+    engine_submit(engine);
+    return prepared;
+}
+
 void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     enum { FRAMES = 20, SETTLED = 12, OF_TWO_CALLS = 6 };
     SurfelPreparedScene *ball = upload(engine, device, renderer, 1);
+    static double centers[3 * COUNT];
+    static float normals[3 * COUNT], radii[COUNT], colors_each[4 * COUNT], tangents[2][3 * COUNT];
+    engine_ball(COUNT, centers, normals, radii);
+    for (int i = 0; i < COUNT; i++) {
+        colors_each[4 * i + i % 3] = colors_each[4 * i + 3] = 1;
+        tangents[0][3 * i] = tangents[1][3 * i + 1] = 0.1f;
+    }
+    SurfelSplats disks = {.sType = SURFEL_STRUCTURE_TYPE_SPLATS, .size = sizeof disks, .count = COUNT,
+                          .centers = centers, .normals = normals, .radii = radii, .colors = colors_each,
+                          .colorCount = COUNT, .closed = VK_TRUE};
+    SurfelSplats ellipses = {.sType = SURFEL_STRUCTURE_TYPE_SPLATS, .size = sizeof ellipses, .count = COUNT,
+                             .centers = centers, .tangentsS = tangents[0], .tangentsT = tangents[1]};
+    SurfelPreparedScene *changes = upload_updatable(engine, renderer, &disks);
+    SurfelPreparedScene *of_ellipses = upload_updatable(engine, renderer, &ellipses);
+    disks.count = disks.colorCount = ellipses.count = PART;
+    SurfelSplats uniform = disks;
+    uniform.colorCount = 1;
+    SurfelDynamicSplats written = {.sType = SURFEL_STRUCTURE_TYPE_DYNAMIC_SPLATS, .size = sizeof written,
+                                   .capacity = COUNT, .count = COUNT, .least = {-1, -1, -1}, .most = {1, 1, 1},
+                                   .largestRadius = 0.1};
+    SurfelPreparedScene *of_host;
+    OK(surfel_dynamic_create(renderer, &written, &of_host));
     const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
     const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
                                        .colorFormats = &format, .colorFormatCount = 1,
@@ -49,7 +89,7 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     SurfelSettings *settings;
     OK(surfel_settings_create(&settings));
     OK(surfel_settings_set(settings, "clip-plane", "1,0.5,0.3,-0.6"));
-    const SurfelPreparedScene *scenes[] = {ball, ball};
+    const SurfelPreparedScene *scenes[] = {ball, changes};
     const double places[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1};
     const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes,
                                .worldFromScene = places, .settings = settings, .sceneCount = 2,
@@ -87,6 +127,12 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
         engine_board(engine, (VkRect2D){{0, 0}, {WIDTH / 2, HEIGHT}}, 0.1f / 4);
         engine_end_rendering(engine);
         const unsigned long before = taken;
+        /* Splats that change, of one color and of many, of one kind and the other; and as many as there are room for of the host's own. */
+        OK(surfel_update(renderer, engine->commands, changes, 0, 0, &uniform));
+        OK(surfel_update(renderer, engine->commands, changes, 0, 0, &disks));
+        OK(surfel_update(renderer, engine->commands, of_ellipses, 0, 7, &ellipses));
+        written.count = COUNT - 300 * (number % 4);
+        OK(surfel_dynamic_set(of_host, &written));
         if (number < OF_TWO_CALLS) {
             OK(surfel_view_prepare(view, engine->commands, &frame));
             engine_begin_rendering(engine, 0);
@@ -129,5 +175,8 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     free(by_two_calls);
     surfel_settings_destroy(settings);
     surfel_view_destroy(view);
+    surfel_prepared_scene_destroy(of_host);
+    surfel_prepared_scene_destroy(of_ellipses);
+    surfel_prepared_scene_destroy(changes);
     surfel_prepared_scene_destroy(ball);
 }

@@ -12,7 +12,10 @@ use surfel::{
 };
 
 use super::{Beside, COLOR_FORMAT, OBJECT_FORMATS, REVERSED, SIZE_PX, engine::Style};
-use crate::common::{faults, scenes};
+use crate::{
+    common::{faults, scenes},
+    hybrid_levels::{hard as hard_cells, waves},
+};
 
 #[test]
 fn a_frame_whose_pipelines_were_made_ahead_makes_none_and_one_without_is_refused() {
@@ -114,6 +117,8 @@ fn flights() -> Vec<Flight> {
     let hard = |settings| Settings { edges: Edges::Hard, ..settings };
     let unfiltered = |settings| Settings { filter: Filter::None, ..settings };
     let with_levels = |budget| Scene { levels: true, budget, ..of_splats(20_000, true, 1.0) };
+    // From afar all of its cells are splats, and no polygon is drawn; near by some are polygons.
+    let cells = || hard_cells(&waves(2500, 2500), 1.0).scene;
     let polygons = || Scene { meshes: vec![triangle()], ..of_splats(3000, true, 1.0) };
     vec![
         flight("closed, by tiles", of_splats(3000, true, 1.0), by(tiles)),
@@ -153,6 +158,8 @@ fn flights() -> Vec<Flight> {
             of_splats(300_000, true, 1.0),
             Settings { tile_memory: TileMemory::Most(20_000_000), ..hard(by(tiles)) },
         ),
+        flight("cells", cells(), by(tiles)),
+        flight("cells and points", cells(), by(points)),
         flight("levels", with_levels(false), by(tiles)),
         flight(WITHOUT_ROOM, with_levels(false), by(tiles)),
         flight("levels, as points", with_levels(false), by(points)),

@@ -17,7 +17,7 @@ use surfel::{
 };
 
 use super::{COLOR_FORMAT, Engine, REVERSED, SIZE_PX};
-use crate::common::faults;
+use crate::common::{faults, scenes};
 
 fn splats() -> DynamicSplats {
     DynamicSplats {
@@ -32,8 +32,8 @@ fn splats() -> DynamicSplats {
     }
 }
 
-/// All that a frame needs beside a renderer that has its pipelines; never submitted.
-pub(super) fn frame(engine: &Engine, renderer: &Renderer) -> Result<(View, PreparedScene), Error> {
+/// All that a frame needs beside a renderer that has its pipelines: of splats that a host writes, and of those that are uploaded and change; never submitted.
+pub(super) fn frame(engine: &Engine, renderer: &Renderer) -> Result<(View, [PreparedScene; 2]), Error> {
     let rendering = Rendering { color_formats: vec![COLOR_FORMAT], ..Rendering::default() };
     let mut view = View::new(renderer, &rendering)?;
     let scene = renderer.dynamic(&splats())?;
@@ -43,12 +43,17 @@ pub(super) fn frame(engine: &Engine, renderer: &Renderer) -> Result<(View, Prepa
         flips_y: true,
     };
     let settings = Settings { size_px: SIZE_PX, rasterizer: Rasterizer::Compute, ..Settings::default() };
-    let scenes = [Placed::at_home(&scene)];
-    let frame = ViewFrame::new(&scenes, &camera, &settings);
+    let ball = Scene { objects: vec![scenes::sphere(300, DVec3::ZERO)], updatable: true, ..Scene::default() };
     engine.begin();
     // SAFETY: recording; never submitted.
+    let mut uploaded = unsafe { renderer.upload(engine.commands, &ball) }?;
+    // SAFETY: as above.
+    unsafe { renderer.update(engine.commands, &mut uploaded, 0, 0, &ball.objects[0].splats) }?;
+    let placed = [Placed::at_home(&scene), Placed::at_home(&uploaded)];
+    let frame = ViewFrame::new(&placed, &camera, &settings);
+    // SAFETY: as above.
     unsafe { view.prepare(renderer, engine.commands, &frame) }?;
-    Ok((view, scene))
+    Ok((view, [scene, uploaded]))
 }
 
 /// Beside a renderer that has its pipelines; and with a renderer of its own, so that layouts, shaders and pipelines fail, too. A lost device stays lost for a host, but

@@ -1,6 +1,7 @@
 //! What recording a frame costs the processor.
 
 mod alone;
+mod kinds;
 mod objects_cost;
 mod unrecorded;
 

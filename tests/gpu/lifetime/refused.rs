@@ -1,15 +1,18 @@
 //! What a device does not have is refused before Vulkan is called: no safe function may call it with what it does not allow. The layer would say so.
 
 use ash::vk;
+use glam::{DVec3, Vec3};
 use surfel::{
     graph::{self, ResourceDesc, Usage, execute::memory_need},
+    prepare::{SplatSetLayout, prepare},
+    scene::{Colors, Mesh, MeshObject, Scene},
     vk::{
         Binding, Buffer, BufferDesc, DescriptorPool, Image, ImageDesc, MemoryUse, Occlusion, PipelineLayout,
         PoolSizes, SetLayout, Staging,
     },
 };
 
-use crate::common::watched::Watched;
+use crate::common::{scenes, watched::Watched};
 
 #[test]
 fn what_a_device_does_not_have_is_refused_and_the_layer_is_silent() {
@@ -87,6 +90,54 @@ fn what_a_device_does_not_have_is_refused_and_the_layer_is_silent() {
     drop(staging);
     assert!(DescriptorPool::new(device, "pool", PoolSizes::default()).is_err());
     assert!(Occlusion::new(device, "queries", 0).is_err());
+    drop((own, foreign));
+    for watched in [watched, other] {
+        let messages = watched.messages.clone();
+        drop(watched);
+        assert_eq!(messages.all(), []);
+    }
+}
+
+/// What a scene is drawn from is brought there first, through a layout of its own device: else a safe call would draw whatever lies in its memory, as indices, too.
+#[test]
+fn a_scene_of_which_a_batch_is_not_recorded_or_the_layout_is_foreign_is_refused() {
+    let (watched, other) = (Watched::new(), Watched::new());
+    let queue = &watched.queue;
+    let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+    let colors = Colors::Uniform([1.0; 4]);
+    let mesh = Mesh { positions, normals: Some(vec![Vec3::Z; 3]), colors, triangles: vec![[0, 1, 2]] };
+    let scene = Scene {
+        objects: vec![scenes::sphere(3000, DVec3::ZERO)],
+        meshes: vec![MeshObject { name: "triangle".to_owned(), mesh, closed: false }],
+        levels: true,
+        ..Scene::default()
+    };
+    let limits = watched.device.facts().limits;
+    let [own, foreign] = [&watched, &other].map(|watched| SplatSetLayout::new(&watched.device).unwrap());
+    // How many batches there were, where all but one of them are recorded.
+    let batches = |layout: &SplatSetLayout, but: Option<usize>| {
+        let mut batches = 0;
+        let mut submit = |staging: Staging| {
+            batches += 1;
+            if but == Some(batches - 1) {
+                return Ok(());
+            }
+            queue.run_once("upload", |commands| {
+                // SAFETY: recording; `run_once` waits.
+                unsafe { staging.record(commands) };
+                Ok(())
+            })
+        };
+        prepare(&watched.device, &limits, layout, &scene, &mut submit, &|_, _| {}).map(|_| batches)
+    };
+    let all = batches(&own, None).unwrap();
+    assert!(all >= 4, "{all}: of splats, nodes, their levels and a mesh");
+    for but in 0..all {
+        let refused = batches(&own, Some(but)).unwrap_err().to_string();
+        assert_eq!(refused, "submit: a batch of uploads was not recorded", "{but} of {all}");
+    }
+    let refused = batches(&foreign, None).unwrap_err().to_string();
+    assert_eq!(refused, "layout: is another device's");
     drop((own, foreign));
     for watched in [watched, other] {
         let messages = watched.messages.clone();
