@@ -9,7 +9,7 @@ use crate::{
     error::{ErrorKind, Result},
     graph::{
         Graph, Plan, ResourceId,
-        execute::{Body, Kept, Physical, Profile, Profiler},
+        execute::{Body, Kept, Part, Physical, Profile, Profiler},
     },
     passes::{Needs, PLANES_BYTES, Planes, ShaderPlane},
     vk::{Buffer, BufferDesc, DescriptorPool, Device, MemoryUse, Occlusion},
@@ -169,5 +169,23 @@ impl Execution<'_> {
     ) -> Result<Arc<Plan>> {
         // SAFETY: this function's contract.
         unsafe { self.kept.execute(self.device, commands, graph, imports, self.profiler) }
+    }
+
+    /// Records a part of a graph; the pass that comes next, if one is left.
+    ///
+    /// # Safety
+    /// As [`Kept::execute_part`].
+    ///
+    /// # Errors
+    /// As [`Kept::execute_part`].
+    pub unsafe fn record_part(
+        self,
+        commands: vk::CommandBuffer,
+        graph: &Graph<'_, Body<'_>>,
+        imports: &[(ResourceId, Physical)],
+        part: Part<'_>,
+    ) -> Result<Option<usize>> {
+        // SAFETY: this function's contract.
+        unsafe { self.kept.execute_part(self.device, commands, graph, imports, self.profiler, part) }
     }
 }

@@ -102,6 +102,7 @@ const INSIDE: &[&str] = &[
     "PickPlan",
     "Plan",
     "Refinements",
+    "FrameStep",
     "SceneFrame",
     "Seen",
     "Shaders",
