@@ -10,7 +10,7 @@ use super::{
 };
 
 /// The lines of frames that were printed since, by their first word.
-fn frames<'a>(printed: &'a str, since: usize) -> Vec<&'a str> {
+fn frames(printed: &str, since: usize) -> Vec<&str> {
     let words = printed[since..].lines().filter_map(|line| line.split_whitespace().next());
     words.filter(|word| matches!(*word, "step" | "whole" | "moving" | "other")).collect()
 }
