@@ -85,6 +85,11 @@ impl FrameSlot {
         self.kept.bytes()
     }
 
+    /// Gives back transients where frames of before have needed far more than the one recorded last: for hosts that draw nothing for a while. The next frame makes its own anew then.
+    pub fn give_back_excess(&mut self) {
+        self.kept.give_back_excess();
+    }
+
     /// Makes the slot ready for a frame that takes so much from it.
     ///
     /// # Safety

@@ -230,6 +230,11 @@ impl Picture {
         self.under_way.is_some()
     }
 
+    /// Gives back memory that pictures of before have needed.
+    pub fn give_back_excess(&mut self) {
+        self.slots.iter_mut().for_each(|slot| slot.slot.give_back_excess());
+    }
+
     /// What is drawn in steps begins anew, if it is drawn at all.
     pub fn stop(&mut self) {
         (self.under_way, self.making) = (None, None);

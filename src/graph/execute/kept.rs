@@ -39,6 +39,9 @@ struct Ready {
     executed: u64,
 }
 
+/// More than so many times what is needed is excess.
+const EXCESS: u64 = 2;
+
 /// Plans that are kept at most.
 const MOST_PLANS: usize = 64;
 
@@ -95,6 +98,13 @@ impl Kept {
         }
         // SAFETY: this function's contract.
         unsafe { execute(device, commands, (&ready.plan, graph), &ready.transients, imports, profiler, part) }
+    }
+
+    /// Gives back all, where it is far more than the last execution has needed.
+    pub fn give_back_excess(&mut self) {
+        if self.bytes() > EXCESS * self.last_bytes() {
+            *self = Self::default();
+        }
     }
 
     /// Bytes of device memory that the transients of the last execution take.

@@ -89,7 +89,10 @@ impl Gpu {
     /// Whatever the driver answers, such as a lost device.
     pub fn tidy(&mut self, is_comparing: bool) -> Result<()> {
         self.dropped = 0;
-        self.pictures.iter_mut().for_each(Picture::stop);
+        for picture in &mut self.pictures {
+            picture.stop();
+            picture.give_back_excess();
+        }
         let other = &mut self.pictures[Use::Other.index()];
         if !is_comparing && other.is_of_use() {
             *other = Picture::new(self.headless.device());
