@@ -18,6 +18,8 @@ pub struct SceneView<'a> {
     pub sample: Option<Ends>,
     /// Another one where the scene is not what it was.
     pub scene_number: u64,
+    /// What is measured of its passes.
+    pub profile: Option<Profile>,
 }
 
 /// Whether a sample is the first of a picture, and whether the last.
@@ -49,8 +51,6 @@ pub struct FrameDesc<'a> {
     pub before: Use,
     /// What lies over it.
     pub overlay: Option<&'a OverlayFrame>,
-    /// What is measured of the scene's passes.
-    pub profile: Option<Profile>,
     /// What it is to the picture, in a word.
     pub what: &'static str,
     /// The input that it answers to.

@@ -168,7 +168,7 @@ impl Gpu {
             let sample = slot.sum(self.headless.device(), view)?;
             let readbacks = Readbacks { sample, ..Readbacks::default() };
             let drawn =
-                SceneFrame { readbacks, profile: desc.profile, ..SceneFrame::new(view.seen, &target) };
+                SceneFrame { readbacks, profile: view.profile, ..SceneFrame::new(view.seen, &target) };
             // SAFETY: recording; the slot's frame or step before was waited for, and a step goes on with a picture that is the same in all that it depends on; scene, target and
             // renderer live until the queue is idle, for all that is dropped waits for its epoch.
             let step = unsafe { self.headless.renderer.record_step(commands, slot.slot(), &drawn, first) }?;

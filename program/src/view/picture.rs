@@ -6,7 +6,10 @@ use ash::vk;
 use surfel::{
     Result,
     frame::{FrameSlot, Target},
-    graph::{ImageState, execute::FrameProfile},
+    graph::{
+        ImageState,
+        execute::{FrameProfile, Profile},
+    },
     renderer::SampleSum,
     scene::{Camera, Settings},
     vk::{Device, Image, ImageDesc},
@@ -89,13 +92,14 @@ struct Inputs {
     is_light: bool,
     sample: Option<Ends>,
     scene_number: u64,
+    profile: Option<Profile>,
 }
 
 impl Inputs {
     fn of(view: &SceneView<'_>) -> Self {
-        let SceneView { seen, is_light, sample, scene_number } = *view;
+        let SceneView { seen, is_light, sample, scene_number, profile } = *view;
         let (camera, settings) = (*seen.camera, seen.settings.clone());
-        Self { camera, settings, is_light, sample, scene_number }
+        Self { camera, settings, is_light, sample, scene_number, profile }
     }
 }
 

@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 
 use surfel::{
     Result,
-    graph::execute::Profile,
     scene::{Camera, Lod, Settings},
 };
 
@@ -174,9 +173,8 @@ impl Viewer {
         let (light, background) = (is_light.then_some(self.encoding), self.settings.background);
         let show = ShowDesc { window_px, light, background, shown };
         let shown = self.prepared.is_some().then_some((pictures, show));
-        let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
         let (what, input) = (choice.what, choice.input);
-        let desc = FrameDesc { views: &views, shown, before: self.shown, overlay, profile, what, input };
+        let desc = FrameDesc { views: &views, shown, before: self.shown, overlay, what, input };
         let done = self.gpu.draw(&desc)?;
         let (finished, asked) = (self.gpu.finished(), views.len());
         let drawn = drawn.filter(|_| finished > 0);

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use surfel::{
     Result,
+    graph::execute::Profile,
     prepare::PreparedScene,
     renderer::Seen,
     scene::{Camera, Settings},
@@ -28,6 +29,7 @@ pub struct Choice {
     camera: Option<Camera>,
     sample: Option<Ends>,
     is_light: bool,
+    profile: Option<Profile>,
     /// What the first is to the picture at rest, in a word.
     pub what: &'static str,
     /// The input that it answers to.
@@ -46,11 +48,11 @@ pub struct Steps {
 impl Choice {
     /// The pictures of a scene.
     pub fn views<'a>(&'a self, scene: &'a PreparedScene) -> Vec<(Use, SceneView<'a>)> {
-        let Self { sample, is_light, scene_number, .. } = *self;
+        let Self { sample, is_light, scene_number, profile, .. } = *self;
         let Some(camera) = &self.camera else { return Vec::new() };
         let view = |(which, settings): &'a (Use, Settings)| {
             let seen = Seen { scene, camera, settings };
-            (*which, SceneView { seen, is_light, sample, scene_number })
+            (*which, SceneView { seen, is_light, sample, scene_number, profile })
         };
         self.pictures.iter().map(view).collect()
     }
@@ -68,10 +70,20 @@ impl Viewer {
     /// Of the device.
     pub fn choose(&mut self, is_moving: bool, whole: &Settings) -> Result<Choice> {
         let is_light = !self.encoding.is_plain();
+        let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
         if self.prepared.is_none() && self.warm.is_some() {
             let (pictures, camera) = (vec![(Use::Other, whole.clone())], Some(warm::camera()));
             let (what, scene_number) = ("other", self.scene_number);
-            return Ok(Choice { pictures, camera, sample: None, is_light, what, input: None, scene_number });
+            return Ok(Choice {
+                pictures,
+                camera,
+                sample: None,
+                is_light,
+                profile,
+                what,
+                input: None,
+                scene_number,
+            });
         }
         self.warm = None;
         let is_coarse = self.shown == Use::Moving && !is_moving;
@@ -121,7 +133,7 @@ impl Viewer {
             _ => refinement.unwrap_or(Refinement::Whole).what(),
         };
         let (input, scene_number) = (self.input_at, self.scene_number);
-        Ok(Choice { pictures, camera, sample, is_light, what, input, scene_number })
+        Ok(Choice { pictures, camera, sample, is_light, profile, what, input, scene_number })
     }
 
     /// Steps of it are drawn, and others are to come. `is_step`: it was so before.
