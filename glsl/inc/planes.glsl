@@ -10,6 +10,7 @@
 // Error: the terms are of up to |x| + |y| + focal + focal |D| / z pixels each, and each is rounded some three times: 2e-7 of their sum, 1e-3 pixels of a picture of
 // 1000 and a plane that is about as far from the eye as what it cuts. That moves the cut by as much over the sine of the angle in which it meets the surface.
 
+#extension GL_EXT_control_flow_attributes : require
 #include "inc/perturb.glsl"
 
 layout(constant_id = SPEC_PLANES) const uint PLANES = 0;

@@ -41,24 +41,30 @@ void cut_by_planes(Splat splat, inout float kept[ROWS])
     vec2 d = top_px - splat.x0_px;
     vec2 w_per_px = depth_of(splat) * splat.w;
     float w = depth_of(splat) + (w_per_px.x * d.x + w_per_px.y * d.y);
-    for (uint plane = 0; plane < PLANES; plane++) {
+    float least[ROWS]; // by how many ramps a pixel is inside
+    float toward[ROWS];
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        least[row] = HARD;
+        toward[row] = 0.0;
+    }
+    // One body for all planes, without a branch: a CPU driver's compiler takes as long as a shader is, and its lanes gain nothing by one.
+    [[dont_unroll]] for (uint plane = 0; plane < PLANES; plane++) {
         vec2 per_px = planes[plane].xy + planes[plane].w * w_per_px;
         float steepness = length(per_px);
         float per_ramp = !COVERAGE_EDGES ? 1.0 : steepness > 0.0 ? 1.0 / (steepness * PLANE_RAMP_PX) : HARD;
         // In half a ramp behind the pixel nothing is left, in half a ramp before it all. Linear along the column.
         float at_top = per_ramp * inside_px(plane, top_px, w);
         float per_row = per_ramp * per_px.y;
-        float first = at_top + per_row * float(first_row);
-        float last = at_top + per_row * float(first_row + OWN_ROWS - 1);
-        if (min(first, last) >= (COVERAGE_EDGES ? 0.5 : 0.0)) {
-            continue; // as most columns have it
-        }
-        float toward = 2.0 * float(quarter_of(per_px)) + BY_PLANE;
+        float toward_plane = 2.0 * float(quarter_of(per_px)) + BY_PLANE;
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             float inside = at_top + per_row * float(first_row + row);
-            float part = COVERAGE_EDGES ? clamp(0.5 + inside, 0.0, 1.0) : inside < 0.0 ? 0.0 : 1.0;
-            kept[row] = part < part_of(kept[row]) ? part + toward : kept[row];
+            toward[row] = inside < least[row] ? toward_plane : toward[row];
+            least[row] = min(inside, least[row]);
         }
+    }
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        float part = COVERAGE_EDGES ? clamp(0.5 + least[row], 0.0, 1.0) : least[row] < 0.0 ? 0.0 : 1.0;
+        kept[row] = part < part_of(kept[row]) ? part + toward[row] : kept[row];
     }
 }
 

@@ -9,7 +9,7 @@ use crate::{
     error::{ErrorKind, Result},
     graph::{
         Graph, Plan, ResourceId,
-        execute::{Body, Kept, Physical, Profile, Profiler},
+        execute::{Body, Kept, Part, Physical, Profile, Profiler},
     },
     passes::{Needs, PLANES_BYTES, Planes, ShaderPlane},
     vk::{Buffer, BufferDesc, DescriptorPool, Device, MemoryUse, Occlusion},
@@ -83,6 +83,11 @@ impl FrameSlot {
     /// Bytes of device memory in transients, of this frame and of those before.
     pub fn transient_bytes(&self) -> u64 {
         self.kept.bytes()
+    }
+
+    /// Gives back transients where frames of before have needed far more than the one recorded last: for hosts that draw nothing for a while. The next frame makes its own anew then.
+    pub fn give_back_excess(&mut self) {
+        self.kept.give_back_excess();
     }
 
     /// Makes the slot ready for a frame that takes so much from it.
@@ -169,5 +174,23 @@ impl Execution<'_> {
     ) -> Result<Arc<Plan>> {
         // SAFETY: this function's contract.
         unsafe { self.kept.execute(self.device, commands, graph, imports, self.profiler) }
+    }
+
+    /// Records a part of a graph; the pass that comes next, if one is left.
+    ///
+    /// # Safety
+    /// As [`Kept::execute_part`].
+    ///
+    /// # Errors
+    /// As [`Kept::execute_part`].
+    pub unsafe fn record_part(
+        self,
+        commands: vk::CommandBuffer,
+        graph: &Graph<'_, Body<'_>>,
+        imports: &[(ResourceId, Physical)],
+        part: Part<'_>,
+    ) -> Result<Option<usize>> {
+        // SAFETY: this function's contract.
+        unsafe { self.kept.execute_part(self.device, commands, graph, imports, self.profiler, part) }
     }
 }

@@ -135,6 +135,7 @@ impl Recording<'_, '_> {
         if self.pipeline.replace(pipeline.raw) == pipeline.raw {
             return;
         }
+        self.context.runs(pipeline.raw);
         let point = pipeline.layout.bind_point();
         // SAFETY: the pipeline is alive as long as the shaders; its layout has this bind point.
         unsafe { self.device().cmd_bind_pipeline(self.commands(), point, pipeline.raw) };

@@ -10,6 +10,7 @@ mod in_parts;
 mod paged;
 mod pick;
 mod scene_frame;
+mod steps;
 
 use std::sync::{
     Arc,
@@ -25,6 +26,7 @@ pub use in_parts::Stage;
 #[cfg(feature = "files")]
 pub use paged::{Drawn, PagedScene, Prepare};
 pub use scene_frame::{Readbacks, SampleSum, SceneFrame, Seen};
+pub use steps::FrameStep;
 
 use crate::{
     arena::Arena,

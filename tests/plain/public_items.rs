@@ -94,6 +94,7 @@ const INSIDE: &[&str] = &[
     "Floors",
     "Formula",
     "FrameSlot",
+    "FrameStep",
     "HybridLevels",
     "Instance",
     "LeveledObject",

@@ -128,10 +128,13 @@ impl Viewer {
         let (Some(camera), Some(prepared)) = (self.camera(), &mut self.prepared) else { return Ok(false) };
         let settings = match prepared {
             OnDevice::Whole(..) => settings,
-            OnDevice::Paged(paged) => match paged.wait_for(&self.gpu.headless, &camera, &settings)? {
-                Some(settings) => settings,
-                None => return Ok(false),
-            },
+            OnDevice::Paged(paged) => {
+                self.scene_number += 1;
+                match paged.wait_for(&self.gpu.headless, &camera, &settings)? {
+                    Some(settings) => settings,
+                    None => return Ok(false),
+                }
+            }
         };
         // A curve is of what is drawn alone; the background is put under it after that.
         let settings = Settings { background: background.filter(|_| is_plain), ..settings };

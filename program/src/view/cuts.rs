@@ -9,6 +9,8 @@ use super::{capture::rounded, keys::Cutting, viewer::Viewer};
 const STEP: f64 = 0.05;
 /// The least half side of a box, in radii of the scene.
 const LEAST_HALF: f64 = 1e-3;
+/// How far a box is around all, in radii of the scene: a side that lay in a flat side of it would cut at random. Steps inward don't meet it either.
+const AROUND: f64 = 0.01;
 
 impl Viewer {
     /// Cuts, or cuts no more.
@@ -20,6 +22,7 @@ impl Viewer {
             Cutting::Box => around(
                 &self.settings,
                 document.scene.bounds().unwrap_or(Bounds::of_ball(document.ball.center, radius)),
+                AROUND * radius,
             ),
             Cutting::More => moved(&self.settings, STEP * radius, LEAST_HALF * radius),
             Cutting::Less => moved(&self.settings, -STEP * radius, LEAST_HALF * radius),
@@ -55,9 +58,9 @@ fn plane(settings: &Settings, point: DVec3, axis: DVec3) -> Settings {
     Settings { clip_planes, clip_box: ClipBox(None), ..settings.clone() }
 }
 
-/// A box; none where there is one.
-fn around(settings: &Settings, bounds: Bounds) -> Settings {
-    let corners = [bounds.min, bounds.max].map(|corner| corner.to_array());
+/// A box around bounds, so far away; none where there is one.
+fn around(settings: &Settings, bounds: Bounds, by: f64) -> Settings {
+    let corners = [bounds.min - by, bounds.max + by].map(|corner| corner.to_array());
     let clip_box = ClipBox(settings.clip_box.0.is_none().then_some(corners));
     Settings { clip_box, clip_planes: ClipPlanes::default(), ..settings.clone() }
 }
@@ -90,13 +93,14 @@ mod tests {
         assert_eq!(*moved(&cut, 0.5, 0.1).clip_planes.0, [[0.0, 0.0, 1.0, 2.5]]);
         assert_eq!(plane(&cut, DVec3::ZERO, DVec3::Z), none);
         let bounds = Bounds::of_ball(DVec3::X, 2.0);
-        let whole = around(&cut, bounds);
+        assert_eq!(around(&none, bounds, 0.5).clip_box.0, Some([[-1.5, -2.5, -2.5], [3.5, 2.5, 2.5]]));
+        let whole = around(&cut, bounds, 0.0);
         assert!(whole.clip_planes.0.is_empty());
         assert_eq!(whole.clip_box.0, Some([[-1.0, -2.0, -2.0], [3.0, 2.0, 2.0]]));
         let less = moved(&whole, 0.5, 0.1);
         assert_eq!(less.clip_box.0, Some([[-0.5, -1.5, -1.5], [2.5, 1.5, 1.5]]));
         assert_eq!(moved(&less, -0.5, 0.1), whole);
         assert_eq!(moved(&whole, 9.0, 0.5).clip_box.0, Some([[0.5, -0.5, -0.5], [1.5, 0.5, 0.5]]));
-        assert_eq!(around(&whole, bounds), none);
+        assert_eq!(around(&whole, bounds, 0.0), none);
     }
 }

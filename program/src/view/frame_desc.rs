@@ -16,6 +16,10 @@ pub struct SceneView<'a> {
     pub is_light: bool,
     /// It is one of several samples of a picture.
     pub sample: Option<Ends>,
+    /// Another one where the scene is not what it was.
+    pub scene_number: u64,
+    /// What is measured of its passes.
+    pub profile: Option<Profile>,
 }
 
 /// Whether a sample is the first of a picture, and whether the last.
@@ -43,10 +47,10 @@ pub struct FrameDesc<'a> {
     pub views: &'a [(Use, SceneView<'a>)],
     /// The pictures to show; nothing where there is none yet.
     pub shown: Option<([Use; 2], ShowDesc)>,
+    /// The picture to show in place of one that is not whole after this frame.
+    pub before: Use,
     /// What lies over it.
     pub overlay: Option<&'a OverlayFrame>,
-    /// What is measured of the scene's passes.
-    pub profile: Option<Profile>,
     /// What it is to the picture, in a word.
     pub what: &'static str,
     /// The input that it answers to.

@@ -55,6 +55,10 @@ pub struct Gpu {
     compiling: usize,
     /// Pipelines that were given up since memory was given back.
     dropped: usize,
+    /// How many pipelines were made when all pictures were whole last.
+    made_when_whole: u64,
+    /// How many of the views of the last frame are whole.
+    finished: usize,
     /// An image is acquired, and nothing is submitted yet that waits for its semaphore.
     is_acquired: bool,
 }
@@ -90,6 +94,8 @@ impl Gpu {
             period: None,
             compiling: 0,
             dropped: 0,
+            made_when_whole: 0,
+            finished: 0,
             is_acquired: false,
         })
     }
@@ -152,18 +158,27 @@ impl Gpu {
         // SAFETY: recording; submitted with this image below.
         unsafe { queue.tell_done(commands, image) };
         let made = self.headless.renderer.shaders().made();
+        let mut compiles = false;
+        let mut steps = Vec::new();
+        self.finished = 0;
         for (which, view) in desc.views {
             let slot = &mut self.pictures[which.index()];
-            let target = slot.target(self.headless.device(), view)?;
+            let first = slot.first_pass(view);
+            let target = slot.target(self.headless.device(), view, made != self.made_when_whole)?;
             let sample = slot.sum(self.headless.device(), view)?;
             let readbacks = Readbacks { sample, ..Readbacks::default() };
             let drawn =
-                SceneFrame { readbacks, profile: desc.profile, ..SceneFrame::new(view.seen, &target) };
-            // SAFETY: recording; the slot's frame before was waited for; scene, target and renderer live until the queue is idle, for all
-            // that is dropped waits for its epoch.
-            let recorded = unsafe { self.headless.renderer.record(commands, slot.slot(), &drawn) };
-            recorded?;
-            slot.recorded(view);
+                SceneFrame { readbacks, profile: view.profile, ..SceneFrame::new(view.seen, &target) };
+            // SAFETY: recording; the slot's frame or step before was waited for, and a step goes on with a picture that is the same in all that it depends on; scene, target and
+            // renderer live until the queue is idle, for all that is dropped waits for its epoch.
+            let step = unsafe { self.headless.renderer.record_step(commands, slot.slot(), &drawn, first) }?;
+            slot.recorded(view, step.next);
+            compiles |= step.new_pipelines > 0;
+            steps.push(first > 0 || step.next.is_some());
+            if step.next.is_some() {
+                break;
+            }
+            self.finished += 1;
         }
         // SAFETY: recording; the frame's submission before was waited for, so its pool and buffers are free; pictures are in the layout
         // that fragments sample them in once they were drawn.
@@ -171,6 +186,9 @@ impl Gpu {
             frame.sets.reset();
             begin_rendering(self.headless.device(), commands, image, swapchain.extent());
             if let Some((uses, show)) = &desc.shown {
+                let begun = steps.len().checked_sub(1).filter(|last| *last >= self.finished);
+                let unfinished = begun.map(|last| desc.views[last].0);
+                let uses = uses.map(|which| if unfinished == Some(which) { desc.before } else { which });
                 let shots = uses.map(|which| self.pictures[which.index()].shot());
                 if let [Some(first), Some(second)] = shots {
                     drawing.show.record(commands, (&self.cache, &frame.sets), [first, second], show)?;
@@ -186,15 +204,23 @@ impl Gpu {
         // SAFETY: recorded just now; `acquired` is to be signaled by the acquisition, `drawn` is waited for by the presentation below.
         let epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, image) }?;
         (frame.epoch, self.is_acquired) = (epoch, false);
-        let compiles = self.headless.renderer.shaders().made() != made;
+        let made_now = self.headless.renderer.shaders().made();
+        compiles |= made_now != made;
         if compiles {
             self.compiling = IN_FLIGHT + 1;
         }
-        for (which, view) in desc.views {
-            let what = if *which == Use::Other { "other" } else { desc.what };
+        if self.finished == desc.views.len() && !desc.views.is_empty() {
+            self.made_when_whole = made_now;
+        }
+        for ((which, view), is_step) in desc.views.iter().zip(steps) {
+            let slot = &mut self.pictures[which.index()];
+            let what = match which {
+                _ if slot.is_under_way() => "step",
+                Use::Other => "other",
+                _ => desc.what,
+            };
             let size_px = view.seen.settings.size_px;
-            let begun = Begun { at: begun, input: desc.input, what, size_px, compiles };
-            self.pictures[which.index()].submitted(epoch, begun);
+            slot.submitted(epoch, Begun { at: begun, input: desc.input, what, size_px, compiles, is_step });
         }
         self.number = (self.number + 1) % IN_FLIGHT;
         // Not while those of a picture are made, of which the first are the oldest.

@@ -1,6 +1,6 @@
 //! `surfel view`: a scene in a window. One file a part: what keys do (`keys`), how the camera moves (`navigation`), how coarse a moving
-//! picture is (`pace`), the thread that reads files (`loading`, `told`), the window's device (`device`, `gpu` and the files it names), what lies over the
-//! picture (`ui`, `panel`, `state`, `popups`, `compared`), and the window itself (`app`, `viewer`, `news`, `redraw`, `refine`, `recover`, `input`, `files`, `changes`, `reasons`, `things`, `picking`, `anchor`, `path`, `capture`).
+//! picture is (`pace`), the thread that reads files (`loading`, `told`), the window's device (`device`, `gpu` and the files it names; `warm`), what lies over the
+//! picture (`ui`, `panel`, `state`, `popups`, `compared`), and the window itself (`app`, `viewer`, `news`, `redraw`, `steps`, `refine`, `recover`, `input`, `files`, `changes`, `reasons`, `things`, `picking`, `anchor`, `path`, `capture`).
 
 mod anchor;
 mod app;
@@ -43,11 +43,13 @@ mod redraw;
 mod refine;
 mod show;
 mod state;
+mod steps;
 mod things;
 mod told;
 mod ui;
 mod values;
 mod viewer;
+mod warm;
 
 use std::path::PathBuf;
 

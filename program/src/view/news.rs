@@ -27,6 +27,7 @@ impl Viewer {
         match news {
             News::Opened(document) => self.opened(*document),
             News::Prepared(prepared) if self.loader.is_newest(prepared.job) => {
+                self.scene_number += 1;
                 self.prepared = Some(OnDevice::Whole(Box::new(prepared.scene), prepared.step));
                 self.prepares = !prepared.is_last;
                 self.changed();
@@ -108,6 +109,7 @@ impl Viewer {
         self.document = Some(document);
         let is_other = !std::mem::take(&mut self.keeps_camera);
         // Pages of what the file was.
+        self.scene_number += 1;
         self.prepared.take_if(|prepared| prepared.pages().is_some());
         self.prepare(is_other);
         self.changed();
@@ -131,6 +133,7 @@ impl Viewer {
             self.edits.splat_scale = 1.0;
             self.ui.tell("splats of files that are read in pages keep their size");
         }
+        self.scene_number += 1;
         if is_other || self.prepared.as_ref().is_none_or(|prepared| prepared.pages().is_none()) {
             let paged = LevelsFile::open(path).and_then(|file| {
                 Paged::new(file, self.options.most_paged_bytes, document.scene.lights.clone())

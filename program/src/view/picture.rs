@@ -6,8 +6,12 @@ use ash::vk;
 use surfel::{
     Result,
     frame::{FrameSlot, Target},
-    graph::{ImageState, execute::FrameProfile},
+    graph::{
+        ImageState,
+        execute::{FrameProfile, Profile},
+    },
     renderer::SampleSum,
+    scene::{Camera, Settings},
     vk::{Device, Image, ImageDesc},
 };
 
@@ -43,6 +47,9 @@ pub struct Picture {
     next: usize,
     image: Option<Image>,
     is_drawn: bool,
+    /// What is drawn in steps and is not whole yet, and its image, where that is not the one that is shown.
+    under_way: Option<UnderWay>,
+    making: Option<Image>,
     /// The sum of samples, until the last one is drawn.
     sum: Option<Image>,
     costs: Vec<Cost>,
@@ -71,6 +78,31 @@ struct Slot {
     begun: Option<Begun>,
 }
 
+/// A picture of which some steps are drawn.
+struct UnderWay {
+    of: Inputs,
+    next: usize,
+}
+
+/// All that a picture depends on.
+#[derive(PartialEq)]
+struct Inputs {
+    camera: Camera,
+    settings: Settings,
+    is_light: bool,
+    sample: Option<Ends>,
+    scene_number: u64,
+    profile: Option<Profile>,
+}
+
+impl Inputs {
+    fn of(view: &SceneView<'_>) -> Self {
+        let SceneView { seen, is_light, sample, scene_number, profile } = *view;
+        let (camera, settings) = (*seen.camera, seen.settings.clone());
+        Self { camera, settings, is_light, sample, scene_number, profile }
+    }
+}
+
 /// A frame under way.
 #[derive(Clone, Copy)]
 pub struct Begun {
@@ -82,15 +114,36 @@ pub struct Begun {
     pub what: &'static str,
     /// Width and height.
     pub size_px: [u32; 2],
-    /// Pipelines were made for it.
+    /// Pipelines were made for it, or ran for the first time.
     pub compiles: bool,
+    /// It is a step of a picture: its queries are those of several.
+    pub is_step: bool,
 }
 
 impl Picture {
     /// Not drawn yet.
     pub fn new(device: &Device) -> Self {
         let slots = [(); 2].map(|()| Slot { slot: FrameSlot::new(device), epoch: 0, begun: None });
-        Self { slots, next: 0, image: None, is_drawn: false, sum: None, costs: Vec::new() }
+        Self {
+            slots,
+            next: 0,
+            image: None,
+            is_drawn: false,
+            under_way: None,
+            making: None,
+            sum: None,
+            costs: Vec::new(),
+        }
+    }
+
+    /// The pass with which the next step of a picture begins: 0, or where the one before of the same picture ended.
+    pub fn first_pass(&mut self, view: &SceneView<'_>) -> usize {
+        if let Some(under_way) = self.under_way.as_ref().filter(|under_way| under_way.of == Inputs::of(view))
+        {
+            return under_way.next;
+        }
+        (self.under_way, self.making) = (None, None);
+        0
     }
 
     /// The submission that must be done before the next one is recorded.
@@ -103,17 +156,22 @@ impl Picture {
         &mut self.slots[self.next].slot
     }
 
-    /// What it is drawn to: an image that fragments sample afterwards.
+    /// What it is drawn to: an image that fragments sample afterwards. `aside`: another one than that which is shown, which stays until the picture is whole.
     ///
     /// # Errors
     /// Whatever the driver or the allocator answers.
-    pub fn target(&mut self, device: &Device, view: &SceneView<'_>) -> Result<Target> {
+    pub fn target(&mut self, device: &Device, view: &SceneView<'_>, aside: bool) -> Result<Target> {
         let [width, height] = view.seen.settings.size_px;
         let extent = vk::Extent2D { width, height };
         let format = view.format();
-        let kept = self.image.take().filter(|image| (image.extent(), image.format()) == (extent, format));
-        // Of several samples, the last one draws to it.
-        self.is_drawn &= kept.is_some() && !view.shows();
+        let is_under_way = self.under_way.is_some();
+        let aside = if is_under_way { self.making.is_some() } else { aside && view.shows() };
+        let place = if aside { &mut self.making } else { &mut self.image };
+        let kept = place.take().filter(|image| (image.extent(), image.format()) == (extent, format));
+        if !aside {
+            // Of several samples, the last one draws to it.
+            self.is_drawn &= kept.is_some() && !view.shows();
+        }
         let image = match kept {
             Some(image) => image,
             None => image_of(device, "picture", format, extent)?,
@@ -132,7 +190,7 @@ impl Picture {
             initial: ImageState { layout: vk::ImageLayout::UNDEFINED, ..sampled },
             last: Some(sampled),
         };
-        self.image = Some(image);
+        *place = Some(image);
         Ok(target)
     }
 
@@ -154,24 +212,51 @@ impl Picture {
         Ok(Some(sum))
     }
 
-    /// Its frame is recorded: commands behind it may sample the image, if it is drawn.
-    pub fn recorded(&mut self, view: &SceneView<'_>) {
-        if view.shows() {
+    /// Its frame is recorded, or a step of it: commands behind it may sample the image, if it is drawn. `next`: the pass with which the next step begins, if there is one.
+    pub fn recorded(&mut self, view: &SceneView<'_>, next: Option<usize>) {
+        self.under_way = next.map(|next| UnderWay { of: Inputs::of(view), next });
+        if next.is_none() && view.shows() {
             // What is dropped waits for the frame.
+            if let Some(image) = self.making.take() {
+                self.image = Some(image);
+            }
             (self.is_drawn, self.sum) = (true, None);
         }
+    }
+
+    /// Whether anything was drawn to it.
+    pub fn is_of_use(&self) -> bool {
+        self.slots.iter().any(|slot| slot.epoch > 0)
+    }
+
+    /// Whether it is drawn in steps, of which some are to come.
+    pub fn is_under_way(&self) -> bool {
+        self.under_way.is_some()
+    }
+
+    /// Gives back memory that pictures of before have needed.
+    pub fn give_back_excess(&mut self) {
+        self.slots.iter_mut().for_each(|slot| slot.slot.give_back_excess());
+    }
+
+    /// What is drawn in steps begins anew, if it is drawn at all.
+    pub fn stop(&mut self) {
+        (self.under_way, self.making) = (None, None);
     }
 
     /// What was recorded does not come.
     pub fn forget(&mut self) {
         (self.is_drawn, self.sum) = (false, None);
+        (self.under_way, self.making) = (None, None);
     }
 
-    /// Its frame is submitted.
+    /// Its frame is submitted, or a step of it.
     pub fn submitted(&mut self, epoch: u64, begun: Begun) {
         let slot = &mut self.slots[self.next];
         (slot.epoch, slot.begun) = (epoch, Some(begun));
-        self.next = (self.next + 1) % self.slots.len();
+        if self.under_way.is_none() {
+            self.next = (self.next + 1) % self.slots.len();
+        }
     }
 
     /// The image, once it was drawn.
@@ -197,9 +282,11 @@ impl Picture {
             // SAFETY: its submission is done.
             let profile = slot.slot.profiler().map(|profiler| unsafe { profiler.read() }).transpose()?;
             let profile = profile.unwrap_or_default();
-            let secs = profile.span_secs.unwrap_or_else(|| begun.at.elapsed().as_secs_f64());
+            let span_secs = profile.span_secs.filter(|_| !begun.is_step);
+            let secs = span_secs.unwrap_or_else(|| begun.at.elapsed().as_secs_f64());
             let since_input = begun.input.map(|input| input.elapsed());
             let Begun { size_px, what, compiles, .. } = begun;
+            let profile = if begun.is_step { FrameProfile::default() } else { profile };
             self.costs.push(Cost { secs, profile, size_px, compiles, what, since_input });
         }
         Ok(all)

@@ -20,6 +20,12 @@ impl Viewer {
     /// # Errors
     /// The error, where it is not.
     pub fn recover(&mut self, error: Error) -> Result<()> {
+        self.steps = None;
+        let was_warming = self.prepared.is_none() && self.warm.take().is_some();
+        if was_warming && !is_device_lost(&error) {
+            self.changed();
+            return Ok(());
+        }
         // Methods that a camera rules out, and cameras beyond what 32 bits tell apart.
         if let (ErrorKind::Option { .. }, Some((settings, camera))) = (error.kind(), self.drawn.take()) {
             self.tell(&error.to_string());
@@ -36,7 +42,8 @@ impl Viewer {
             return Err(error);
         }
         self.lost = Some(now);
-        (self.prepared, self.anchor) = (None, Anchor::default());
+        self.scene_number += 1;
+        (self.prepared, self.warm, self.anchor) = (None, None, Anchor::default());
         self.gpu = open_again(&self.window, &mut self.gpu, &self.options.device)?;
         let reading = self.ui.reading.take();
         self.ui = Ui::new(self.window.scale_factor() as f32);

@@ -5,20 +5,17 @@ use std::time::{Duration, Instant};
 
 use surfel::{
     Result,
-    graph::execute::Profile,
-    renderer::Seen,
     scene::{Camera, Lod, Settings},
 };
 
 use super::{
     document::Document,
-    frame_desc::{Drawn, FrameDesc, SceneView},
+    frame_desc::{Drawn, FrameDesc},
     keys::Comparing,
     on_device::{OnDevice, Paged},
     overlay::OverlayFrame,
     picture::Use,
     printed,
-    refine::Refinement,
     show::{ShowDesc, Shown},
     told::Step,
     viewer::Viewer,
@@ -37,7 +34,8 @@ impl Viewer {
     pub fn next_wake(&mut self, now: Instant) -> Option<Instant> {
         let rest = self.moved.filter(|_| !self.anchor.waits()).map(|moved| moved + self.pace.rest());
         let refines = self.refines.filter(|_| self.moved.is_none());
-        let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies];
+        let step = self.steps.as_ref().map(|steps| steps.next_look);
+        let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies, step];
         let all = [rest, self.anchor.next_look(now), self.files.next_look(), self.ui.next_wake()]
             .into_iter()
             .chain(looks);
@@ -56,7 +54,7 @@ impl Viewer {
         let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
         if is_due(self.tidies) {
             // As above.
-            let rests = self.moved.is_none() && self.gpu.is_idle().unwrap_or(true);
+            let rests = self.moved.is_none() && self.steps.is_none() && self.gpu.is_idle().unwrap_or(true);
             self.tidies = (!rests).then(|| now + TIDY);
             if rests {
                 let _ = self.gpu.tidy(self.comparing.is_some());
@@ -76,7 +74,13 @@ impl Viewer {
         }
         // As above.
         let refines = self.moved.is_none() && self.can_refine().unwrap_or(false);
-        if rests || refines || is_due(self.ui.next_wake()) || is_due(self.looks_for_costs) || pages_are_there
+        let steps = self.steps.is_some() && !self.waits_for_step().unwrap_or(false);
+        if rests
+            || refines
+            || steps
+            || is_due(self.ui.next_wake())
+            || is_due(self.looks_for_costs)
+            || pages_are_there
         {
             self.window.request_redraw();
         }
@@ -87,6 +91,9 @@ impl Viewer {
     /// # Errors
     /// As [`super::gpu::Gpu::draw`].
     pub fn redraw(&mut self) -> Result<()> {
+        if self.waits_for_step()? {
+            return Ok(());
+        }
         self.hear_anchor()?;
         self.fly();
         self.play();
@@ -103,6 +110,7 @@ impl Viewer {
         }
         self.learn(is_moving)?;
         let overlay = self.run_ui()?;
+        let was_step = self.steps.is_some();
         let (drawn, which) = self.draw(is_moving, overlay.as_ref())?;
         self.tidies = Some(now + TIDY);
         match drawn {
@@ -113,9 +121,12 @@ impl Viewer {
             }
             Drawn::Shown => {
                 if let (Some(which), Some(camera)) = (which, self.camera()) {
-                    (self.is_stale, self.shown) = (false, which);
-                    self.drawn = Some((self.settings.clone(), camera));
-                    self.looks_for_costs = self.shows_costs().then(|| Instant::now() + COST);
+                    self.shown = which;
+                    // What has changed since its first step is drawn next.
+                    if !was_step {
+                        self.is_stale = false;
+                        self.drawn = Some((self.settings.clone(), camera));
+                    }
                 }
                 if self.input.flies() || self.path.plays() {
                     self.window.request_redraw();
@@ -125,73 +136,31 @@ impl Viewer {
         Ok(())
     }
 
-    /// Draws the scene, if it is to be drawn, and shows what there is; for what use it was drawn.
+    /// Draws the scene, if it is to be drawn, and shows what there is; for what use it was drawn, once that picture is whole.
     fn draw(&mut self, is_moving: bool, overlay: Option<&OverlayFrame>) -> Result<(Drawn, Option<Use>)> {
         let window_px = self.window_px();
-        let whole = self.at_rest(&Settings { size_px: window_px, ..self.settings.clone() });
-        let is_coarse = self.shown == Use::Moving && !is_moving;
-        if self.is_stale || is_coarse {
-            self.splats_drawn = None;
-            (self.refined, self.refines, self.is_hasty) = (0, None, self.pace.is_slow());
-        }
-        let refinement = self.next_refinement(&whole);
-        let camera = self.camera();
-        let (which, camera, settings, sample) = match (camera, refinement) {
-            (Some(camera), _) if is_moving && !self.pace.is_finest() => {
-                (Use::Moving, Some(camera), self.coarse(&whole), None)
-            }
-            (Some(camera), Some(step)) => {
-                let (camera, settings, sample) = step.of(camera, &whole);
-                (Use::Still, Some(camera), settings, sample)
-            }
-            (camera, _) => (Use::Still, camera, whole.clone(), None),
+        let whole = self.whole();
+        let goes_on = self.steps.take().filter(|steps| steps.choice.scene_number == self.scene_number);
+        let is_step = goes_on.is_some();
+        let mut choice = match goes_on {
+            Some(steps) => steps.choice,
+            None => self.choose(is_moving, &whole)?,
         };
-        let refines = refinement.is_some() && !is_moving && self.can_refine()?;
-        let settings = self.with_pages(settings, whole.clone())?;
-        // Pages have come: samples of what was there before are of no use.
-        let begins_again = self.is_stale && sample.is_some();
-        if begins_again {
-            self.refined = 0;
-            self.window.request_redraw();
-        }
-        // What was kept for another camera, or another scene.
-        if let Some(error) = self.comparing.and_then(|_| self.check(&self.other).err()) {
-            self.comparing = None;
-            self.tell(&format!("no comparison: {error}"));
-        }
-        let is_light = !self.encoding.is_plain();
-        let drawn_so = |settings: Settings| match is_light {
-            true => Settings { background: None, ..settings },
-            false => settings,
-        };
-        let other = self.comparing.zip(settings.as_ref()).map(|(_, settings)| {
-            drawn_so(Settings { size_px: settings.size_px, lod: settings.lod, ..self.other.clone() })
-        });
-        let background = self.settings.background;
-        let settings = settings.map(drawn_so);
-        let wants = (self.is_stale || is_coarse || refines) && !begins_again;
-        let mut views = Vec::new();
-        if let (true, Some(prepared), Some(camera), Some(settings)) =
-            (wants, &self.prepared, &camera, &settings)
-        {
-            let seen = |settings| Seen { scene: prepared.scene(), camera, settings };
-            let view = |settings| SceneView { seen: seen(settings), is_light, sample };
-            views.push((which, view(settings)));
-            views.extend(other.as_ref().map(|other| (Use::Other, view(other))));
-        }
+        let scene = self.prepared.as_ref().map(OnDevice::scene);
+        let mut views = scene.or(self.warm.as_ref()).map_or(Vec::new(), |scene| choice.views(scene));
         // The window goes on with the picture that is there until the pipelines of another are.
         let is_asked = !views.is_empty();
-        if self.is_unsure && is_asked {
+        if self.is_unsure && is_asked && !is_step {
             self.is_unsure = !self.gpu.make_pipelines(&views)?;
             if self.is_unsure {
                 views.clear();
                 self.window.request_redraw();
             }
         }
-        if self.ui.set_compiling(self.is_unsure && is_asked) {
+        if self.ui.set_compiling(is_step || self.is_unsure && is_asked) {
             self.window.request_redraw();
         }
-        let drawn = (!views.is_empty()).then_some(which);
+        let drawn = views.first().map(|(which, _)| *which).filter(|which| *which != Use::Other);
         let comparing = self.comparing.filter(|_| drawn.is_some() || self.gpu.has_picture(Use::Other));
         let first = drawn.unwrap_or(self.shown);
         let (pictures, shown) = match comparing {
@@ -200,26 +169,37 @@ impl Viewer {
             Some(Comparing::Split) => ([first, Use::Other], Shown::Both(self.split * window_px[0] as f32)),
             Some(Comparing::Difference) => ([first, Use::Other], Shown::Difference),
         };
-        let light = is_light.then_some(self.encoding);
+        let is_light = !self.encoding.is_plain();
+        let (light, background) = (is_light.then_some(self.encoding), self.settings.background);
         let show = ShowDesc { window_px, light, background, shown };
         let shown = self.prepared.is_some().then_some((pictures, show));
-        let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
-        let what = match which {
-            Use::Moving => "moving",
-            _ => refinement.unwrap_or(Refinement::Whole).what(),
-        };
-        let desc = FrameDesc { views: &views, shown, overlay, profile, what, input: self.input_at };
+        let (what, input) = (choice.what, choice.input);
+        let desc = FrameDesc { views: &views, shown, before: self.shown, overlay, what, input };
         let done = self.gpu.draw(&desc)?;
+        let (finished, asked) = (self.gpu.finished(), views.len());
+        let drawn = drawn.filter(|_| finished > 0);
+        if finished > 0 {
+            self.looks_for_costs = self.shows_costs().then(|| Instant::now() + COST);
+        }
+        if done != Drawn::Hidden && finished < asked {
+            choice.pictures.drain(..finished);
+            self.go_on_later(choice, is_step);
+        } else if is_step {
+            self.window.request_redraw();
+        }
+        if asked > 0 && finished == asked && self.prepared.is_none() {
+            self.warm = None;
+        }
         if done == Drawn::Shown && drawn == Some(Use::Still) && self.prepared.is_some() {
             // What comes after the whole picture answers to something else.
-            self.input_at.take_if(|_| what == "whole" && !is_moving);
+            self.input_at.take_if(|at| what == "whole" && !is_moving && Some(*at) == input);
             self.refine(&whole);
         }
         Ok((done, drawn))
     }
 
     /// The settings with which what is there can be drawn; `None` where nothing is. `whole`: those of the picture at rest.
-    fn with_pages(&mut self, settings: Settings, whole: Settings) -> Result<Option<Settings>> {
+    pub fn with_pages(&mut self, settings: Settings, whole: Settings) -> Result<Option<Settings>> {
         self.looks_for_pages = None;
         let (Some(OnDevice::Paged(paged)), Some(camera)) = (&mut self.prepared, self.navigation.as_ref())
         else {
@@ -228,6 +208,7 @@ impl Viewer {
         let before = (paged.now(&whole), paged.pages());
         let wanted = [&settings, &whole];
         let wanted = if settings == whole { &wanted[1..] } else { &wanted[..] };
+        self.scene_number += 1;
         let drawn = paged.update(&self.gpu.headless, &camera.camera, wanted)?;
         let fault = paged.take_fault();
         if paged.is_coming {
@@ -248,7 +229,13 @@ impl Viewer {
         self.was_moving = is_moving;
         for which in Use::ALL {
             let (costs, all) = self.gpu.take_costs(which)?;
-            for cost in costs.into_iter().filter(|_| which != Use::Other) {
+            for cost in costs {
+                if self.options.prints_frames {
+                    console::print(&printed::frame(&cost))?;
+                }
+                if which == Use::Other {
+                    continue;
+                }
                 // A picture at rest tells of moving ones where they are the same.
                 if is_moving && (which == Use::Moving || self.pace.is_finest()) {
                     let secs = period.map_or(cost.secs, |period| period.as_secs_f64());
@@ -257,9 +244,8 @@ impl Viewer {
                 if cost.what == "whole" && !cost.compiles {
                     self.pace.learn_whole(cost.secs);
                 }
-                self.ui.history.push(&cost);
-                if self.options.prints_frames {
-                    console::print(&printed::frame(&cost))?;
+                if cost.what != "step" {
+                    self.ui.history.push(&cost);
                 }
             }
             if !all && self.shows_costs() {
@@ -274,7 +260,7 @@ impl Viewer {
     }
 
     /// As coarse as a moving picture is.
-    fn coarse(&self, whole: &Settings) -> Settings {
+    pub fn coarse(&self, whole: &Settings) -> Settings {
         let has_levels = self.prepared.as_ref().is_some_and(|prepared| prepared.step() == Step::Leveled);
         let lod = if has_levels { self.pace.lod(whole.lod) } else { whole.lod };
         Settings { size_px: self.pace.size_px(whole.size_px), lod, ..whole.clone() }

@@ -3,13 +3,16 @@
 use std::{sync::Arc, time::Instant};
 
 use glam::DVec3;
-use surfel::scene::{Camera, Encoding, Samples, Settings};
+use surfel::{
+    prepare::PreparedScene,
+    scene::{Camera, Encoding, Samples, Settings},
+};
 use winit::window::Window;
 
 use super::{
     ViewArguments, anchor::Anchor, capture::Clipboard, document::Document, edits::Edits, files::Files,
     gpu::Gpu, input::Input, keys::Comparing, loading::Loader, navigation::Navigation, on_device::OnDevice,
-    options::Options, pace::Pace, path::Path, picture::Use, ui::Ui,
+    options::Options, pace::Pace, path::Path, picture::Use, steps::Steps, ui::Ui, warm,
 };
 use crate::console;
 
@@ -30,6 +33,8 @@ pub struct Viewer {
     pub document: Option<Document>,
     /// The scene on the device.
     pub prepared: Option<OnDevice>,
+    /// What is drawn before there is a scene, and not shown.
+    pub warm: Option<PreparedScene>,
     pub navigation: Option<Navigation>,
     /// With one sample a pixel.
     pub settings: Settings,
@@ -64,6 +69,10 @@ pub struct Viewer {
     pub is_stale: bool,
     /// The picture may need pipelines that are not there yet.
     pub is_unsure: bool,
+    /// Pictures that are drawn in steps.
+    pub steps: Option<Steps>,
+    /// Counts the changes of what is on the device.
+    pub scene_number: u64,
     /// The picture that is shown.
     pub shown: Use,
     /// How many steps to the picture at rest are drawn.
@@ -98,6 +107,7 @@ impl Viewer {
         path: Path,
         arguments: &ViewArguments,
     ) -> Self {
+        let warm = warm::scene(&gpu.headless);
         let ui = Ui::new(window.scale_factor() as f32);
         let samples = settings.samples;
         let settings = Settings { samples: Samples(1), ..settings };
@@ -121,6 +131,7 @@ impl Viewer {
             reads_first: true,
             document: None,
             prepared: None,
+            warm,
             navigation: None,
             edits: Edits { things: Vec::new(), splat_scale: 1.0 },
             thing: 0,
@@ -142,6 +153,8 @@ impl Viewer {
             looks_for_costs: None,
             looks_for_pages: None,
             tidies: None,
+            steps: None,
+            scene_number: 0,
             shown: Use::Still,
             ends: false,
             keeps_camera: false,
@@ -178,9 +191,9 @@ impl Viewer {
 
     /// Closes the window; keeps what was compiled.
     pub fn close(self) {
-        let Self { gpu, loader, prepared, .. } = self;
+        let Self { gpu, loader, prepared, warm, .. } = self;
         drop(loader);
-        drop(prepared);
+        drop((prepared, warm));
         // A lost cache costs the next run some time, that is all.
         let _ = gpu.headless.renderer.shaders().save_cache();
     }

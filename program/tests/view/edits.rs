@@ -4,6 +4,7 @@ use std::{thread, time::Duration};
 
 use super::{
     CAMERA,
+    rest::cube,
     screen::Screen,
     window::{Folder, View, render, surfel},
 };
@@ -42,6 +43,25 @@ fn cuts_and_outlines_by_key_are_those_of_render_and_all_of_it_goes_back() {
         screen.key(key);
     }
     view.wait_for(&whole);
+    view.end();
+}
+
+/// Its sides would else lie in those of the cube, of which they would leave a part at random.
+#[test]
+fn a_box_around_all_of_a_cube_cuts_nothing() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    cube(&folder, "a.obj");
+    let first = [&["a.obj", "--size", "320x240"], &CAMERA[..]].concat();
+    let mut view = View::open(&screen, &folder, &first);
+    let whole = render(&folder, &first);
+    view.wait_for(&whole);
+    screen.key("B");
+    let cut = view.camera();
+    assert!(cut.iter().any(|word| word == "--clip-box"), "{cut:?}");
+    let boxed = render(&folder, &words(&cut, &["a.obj", "--size", "320x240"]));
+    // Pixels of its edges may be rounded otherwise.
+    assert!(boxed.differs_from(&whole) < 10, "{}", boxed.differs_from(&whole));
+    view.wait_for(&boxed);
     view.end();
 }
 

@@ -11,6 +11,7 @@ mod random;
 mod rest;
 mod screen;
 mod soak;
+mod steps;
 mod wheel;
 mod window;
 

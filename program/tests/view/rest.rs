@@ -13,7 +13,7 @@ use super::{
 };
 
 /// A cube of triangles.
-fn cube(folder: &Folder, name: &str) {
+pub fn cube(folder: &Folder, name: &str) {
     let corner = |i: u32| [0, 1, 2].map(|axis| 2 * (i >> axis & 1)).map(|at| f64::from(at) - 1.0);
     let corners = (0..8).map(corner).map(|[x, y, z]| format!("v {x} {y} {z}\n"));
     let faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];

@@ -62,6 +62,13 @@ impl PassContext<'_> {
         self.recorder.arena
     }
 
+    /// Tells who wants to know it that a pipeline runs.
+    pub fn runs(&self, pipeline: vk::Pipeline) {
+        if let Some(runs) = self.recorder.runs {
+            runs.runs(pipeline);
+        }
+    }
+
     /// The pass's name.
     pub fn name(&self) -> &str {
         &self.pass.name

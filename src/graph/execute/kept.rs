@@ -7,14 +7,14 @@ use ash::vk;
 
 use super::{
     super::{BufferDesc, Graph, Plan, ResourceDesc, ResourceId},
-    Body, Physical, Profiler,
+    Body, Part, Physical, Profiler,
     blocks::{Blocks, FRAMES_OF_LATE},
     execute,
     rooms::{Room, renew, serve},
     transients::{Transients, memory_need},
 };
 use crate::{
-    error::Result,
+    error::{ErrorKind, Result},
     vk::{Device, texel_bytes, wait_for_all},
 };
 
@@ -39,6 +39,9 @@ struct Ready {
     executed: u64,
 }
 
+/// More than so many times what is needed is excess.
+const EXCESS: u64 = 2;
+
 /// Plans that are kept at most.
 const MOST_PLANS: usize = 64;
 
@@ -59,7 +62,34 @@ impl Kept {
         imports: &[(ResourceId, Physical)],
         profiler: Option<&mut Profiler>,
     ) -> Result<Arc<Plan>> {
-        self.ready(device, graph)?;
+        // SAFETY: this function's contract.
+        unsafe { self.execute_part(device, commands, graph, imports, profiler, Part::default()) }?;
+        Ok(Arc::clone(&self.ready[0].plan))
+    }
+
+    /// Records a part of a graph's passes as [`execute`] does; the pass that comes next, if one is left.
+    ///
+    /// # Errors
+    /// As [`Self::execute`]; [`ErrorKind::Graph`] for a part that goes on with another graph.
+    ///
+    /// # Safety
+    /// As [`Self::execute`]; of a part that goes on, as [`execute`], and the part before has finished.
+    pub unsafe fn execute_part(
+        &mut self,
+        device: &Device,
+        commands: vk::CommandBuffer,
+        graph: &Graph<'_, Body<'_>>,
+        imports: &[(ResourceId, Physical)],
+        profiler: Option<&mut Profiler>,
+        part: Part<'_>,
+    ) -> Result<Option<usize>> {
+        if part.first == 0 {
+            self.ready(device, graph)?;
+        } else if !self.ready.first().is_some_and(|ready| ready.goes_on(graph)) {
+            let reason = "is not the one of which a part was recorded last".to_owned();
+            let (pass, resource) = (String::new(), "the graph".to_owned());
+            return Err(ErrorKind::Graph { pass, resource, reason }.into());
+        }
         let ready = &self.ready[0];
         if self.is_another {
             // What another plan had in this memory no barrier of this one knows.
@@ -67,8 +97,14 @@ impl Kept {
             unsafe { wait_for_all(device, commands) };
         }
         // SAFETY: this function's contract.
-        unsafe { execute(device, commands, (&ready.plan, graph), &ready.transients, imports, profiler) }?;
-        Ok(Arc::clone(&ready.plan))
+        unsafe { execute(device, commands, (&ready.plan, graph), &ready.transients, imports, profiler, part) }
+    }
+
+    /// Gives back all, where it is far more than the last execution has needed.
+    pub fn give_back_excess(&mut self) {
+        if self.bytes() > EXCESS * self.last_bytes() {
+            *self = Self::default();
+        }
     }
 
     /// Bytes of device memory that the transients of the last execution take.
@@ -178,6 +214,12 @@ impl Kept {
 }
 
 impl Ready {
+    /// Whether it is the plan of a graph, in every size, and in place.
+    fn goes_on(&self, graph: &Graph<'_, Body<'_>>) -> bool {
+        let Self { plan, transients, .. } = self;
+        plan.has_shape_of(graph) && plan.has_sizes_of(graph) && !transients.is_homeless(plan)
+    }
+
     /// The names of the buffers whose sizes vary.
     fn varying(&self) -> HashSet<&str> {
         let varying = self.plan.resources.iter().zip(&self.rooms).filter(|(_, room)| room.varies);

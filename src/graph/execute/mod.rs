@@ -4,6 +4,7 @@
 mod blocks;
 mod context;
 mod kept;
+mod part;
 mod profiler;
 mod recorder;
 mod rooms;
@@ -16,6 +17,7 @@ use self::{context::Binding, recorder::Recorder};
 pub use self::{
     context::{Body, PassContext},
     kept::Kept,
+    part::{Part, Runs},
     profiler::{FrameProfile, PassCounts, PassProfile, Profile, Profiler},
     transients::{Transients, memory_need},
 };
@@ -36,7 +38,8 @@ pub enum Physical {
     TexelBuffer(vk::Buffer, vk::BufferView),
 }
 
-/// Records every pass of a plan, which is that of the graph or of one of the same shape: its barriers, its debug label, its queries, its rendering, its body.
+/// Records the passes of a plan that a part has, which is that of the graph or of one of the same shape: barriers, debug label, queries, rendering, body. The pass that comes
+/// next, where the part ends before the plan does.
 ///
 /// # Errors
 /// [`ErrorKind::Graph`] if an import is missing or of the wrong kind, before anything is recorded; whatever a body
@@ -46,7 +49,8 @@ pub enum Physical {
 /// `commands` must be recording, outside of rendering, and be submitted to the queue of the device's family, after
 /// earlier executions with the same `transients`, which are those of this plan or of one that differs in sizes of buffers alone.
 /// `imports` must be alive until it has run, of the declared description, and in their declared initial states.
-/// `profiler`'s earlier frame must have finished.
+/// `profiler`'s earlier frame must have finished. Where the part has not the first pass, the one before it was recorded last with these transients and this profiler, of a graph
+/// that differs in nothing.
 pub unsafe fn execute(
     device: &Device,
     commands: vk::CommandBuffer,
@@ -54,7 +58,8 @@ pub unsafe fn execute(
     transients: &Transients,
     imports: &[(ResourceId, Physical)],
     mut profiler: Option<&mut Profiler>,
-) -> Result<()> {
+    part: Part<'_>,
+) -> Result<Option<usize>> {
     let arena = graph.arena();
     let mut physical = arena.growing();
     physical.extend(transients.physical());
@@ -66,15 +71,15 @@ pub unsafe fn execute(
     }
     // Before the first command: what fails later would leave labels and queries open.
     check_objects(plan, &physical)?;
-    let recorder = Recorder { device, commands, plan, physical: &physical, arena };
-    if let Some(profiler) = &mut profiler {
+    let recorder = Recorder { device, commands, plan, physical: &physical, arena, runs: part.runs };
+    if let (0, Some(profiler)) = (part.first, &mut profiler) {
         // SAFETY: this function's contract.
         unsafe { profiler.begin_frame(commands, &plan.passes) };
     }
     let profiler = profiler.as_deref();
     let mut bindings = arena.growing();
     bindings.resize(plan.resources.len(), Binding::default());
-    for (index, pass) in (0..).zip(&plan.passes) {
+    for (index, pass) in (0..).zip(&plan.passes).skip(part.first) {
         let draws = pass.rendering.is_some();
         // Copies have nothing to count.
         let counting = profiler.filter(|_| draws || pass.kind == PassKind::Compute);
@@ -103,9 +108,14 @@ pub unsafe fn execute(
         }
         device.end_label(commands);
         done?;
+        let next = index as usize + 1;
+        if next < plan.passes.len() && part.ends() {
+            return Ok(Some(next));
+        }
     }
     // SAFETY: this function's contract.
-    unsafe { recorder.barriers(None, &plan.final_barriers) }
+    unsafe { recorder.barriers(None, &plan.final_barriers) }?;
+    Ok(None)
 }
 
 /// Refuses a plan of which a resource in use has no object, or one of another kind.

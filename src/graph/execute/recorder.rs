@@ -5,6 +5,7 @@ use ash::vk;
 use super::{
     super::{Attachment, Barrier, Plan, PlannedPass, ResourceDesc, ResourceId, Scope, aspect_of},
     Physical,
+    part::Runs,
 };
 use crate::{
     arena::Arena,
@@ -20,6 +21,8 @@ pub(super) struct Recorder<'a> {
     pub(super) physical: &'a [Option<Physical>],
     /// For what a command is told.
     pub(super) arena: &'a Arena,
+    /// Is told of pipelines that run.
+    pub(super) runs: Option<&'a dyn Runs>,
 }
 
 impl Recorder<'_> {

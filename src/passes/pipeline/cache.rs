@@ -4,9 +4,10 @@ mod kept;
 mod missing;
 
 use std::{
+    collections::HashSet,
     path::Path,
     sync::{
-        Arc,
+        Arc, Mutex,
         atomic::{AtomicU64, Ordering},
     },
 };
@@ -53,6 +54,7 @@ pub struct Shaders {
     asked: AtomicU64,
     /// How many were made.
     made: AtomicU64,
+    ran: Mutex<HashSet<vk::Pipeline>>,
     cache: PipelineCache,
     stand_ins: Arc<StandIns>,
     /// Set 0 of the splat passes.
@@ -149,6 +151,7 @@ impl Shaders {
             compute: Made::default(),
             asked: AtomicU64::new(0),
             made: AtomicU64::new(0),
+            ran: Mutex::default(),
             cache: PipelineCache::open(device, cache_folder)?,
             stand_ins,
             splat_set,

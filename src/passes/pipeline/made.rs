@@ -98,12 +98,9 @@ impl<K: Eq + Hash, P: OwnsPipeline> Made<K, P> {
         self.all().iter().map(|(key, (_, used))| of(key, *used)).collect()
     }
 
-    /// Drops those that were asked for last before a time; how many.
-    pub fn drop_before(&self, time: u64) -> usize {
-        let mut all = self.all();
-        let before = all.len();
-        all.retain(|_, (_, used)| *used >= time);
-        before - all.len()
+    /// Drops those that were asked for last before a time, and tells which.
+    pub fn drop_before(&self, time: u64) -> Vec<vk::Pipeline> {
+        self.all().extract_if(|_, (_, used)| *used < time).map(|(_, (pipeline, _))| pipeline.raw()).collect()
     }
 
     fn all(&self) -> MutexGuard<'_, Found<K, P>> {

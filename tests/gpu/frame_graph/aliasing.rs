@@ -5,7 +5,7 @@ use surfel::{
     arena::Arena,
     graph::{
         Cause,
-        execute::{Physical, Transients, execute},
+        execute::{Part, Physical, Transients, execute},
     },
     vk::CommandPool,
 };
@@ -89,8 +89,16 @@ fn an_import_that_is_missing_or_of_the_wrong_kind_is_refused_before_anything_is_
         // SAFETY: the pool is new; what is refused was not recorded, and the rest of it is submitted.
         let error = unsafe {
             let commands = pool.begin().unwrap();
-            let error =
-                execute(&watched.device, commands, (&plan, &graph), &transients, &given, None).unwrap_err();
+            let error = execute(
+                &watched.device,
+                commands,
+                (&plan, &graph),
+                &transients,
+                &given,
+                None,
+                Part::default(),
+            )
+            .unwrap_err();
             let epoch = watched.queue.submit(pool.end().unwrap()).unwrap();
             watched.queue.wait(epoch).unwrap();
             error

@@ -5,7 +5,7 @@ use surfel::{
     arena::Arena,
     graph::{
         Access, BufferDesc as GraphBufferDesc, BufferState, Graph, ImageDesc, Plan, ResourceId, Start,
-        execute::{Body, PassContext, Physical, Transients, execute, memory_need},
+        execute::{Body, Part, PassContext, Physical, Transients, execute, memory_need},
     },
     vk::{Buffer, BufferDesc, CommandPool, MemoryUse},
 };
@@ -122,7 +122,8 @@ pub fn submit(
     // SAFETY: the pool is new and the queue one; all that is used is alive until the callers' wait.
     unsafe {
         let commands = pool.begin().unwrap();
-        execute(&watched.device, commands, (plan, graph), transients, imports, None).unwrap();
+        execute(&watched.device, commands, (plan, graph), transients, imports, None, Part::default())
+            .unwrap();
         let epoch = watched.queue.submit(pool.end().unwrap()).unwrap();
         (pool, epoch)
     }

@@ -50,6 +50,11 @@ impl Gpu {
         self.headless.queue().is_done(last.unwrap_or(0))
     }
 
+    /// How many of the pictures of the last frame are whole; the one behind them is drawn in steps.
+    pub fn finished(&self) -> usize {
+        self.finished
+    }
+
     /// Whether there is one for a use, drawn before.
     pub fn has_picture(&self, which: Use) -> bool {
         self.pictures[which.index()].shot().is_some()
@@ -78,14 +83,18 @@ impl Gpu {
         self.period.take()
     }
 
-    /// Gives back what is of no use before the next frame, while the device has nothing to do. `is_comparing`: the picture by another method is of use.
+    /// Gives back what is of no use before the next frame, while the device has nothing to do and no picture is drawn in steps. `is_comparing`: the picture by another method is of use.
     ///
     /// # Errors
     /// Whatever the driver answers, such as a lost device.
     pub fn tidy(&mut self, is_comparing: bool) -> Result<()> {
         self.dropped = 0;
+        for picture in &mut self.pictures {
+            picture.stop();
+            picture.give_back_excess();
+        }
         let other = &mut self.pictures[Use::Other.index()];
-        if !is_comparing && other.shot().is_some() {
+        if !is_comparing && other.is_of_use() {
             *other = Picture::new(self.headless.device());
         }
         // SAFETY: nothing is being recorded now.
@@ -99,6 +108,8 @@ impl Gpu {
     pub fn forget_pipelines(&mut self) {
         // SAFETY: this thread alone records, and has submitted what it recorded.
         unsafe { self.headless.renderer.shaders().keep_newest(0) };
+        // Of other shaders.
+        self.pictures.iter_mut().for_each(Picture::stop);
         if let Some(drawing) = &mut self.drawing {
             // Of no window, so that they are made for this one.
             drawing.format = vk::Format::UNDEFINED;

@@ -1,6 +1,11 @@
 //! Which pipelines there are, which may be made, and which of them stay.
 
-use std::sync::atomic::Ordering;
+use std::{
+    collections::HashSet,
+    sync::{MutexGuard, PoisonError, atomic::Ordering},
+};
+
+use ash::vk;
 
 use super::{super::made::first_to_stay, MissingPipelines, Shaders};
 use crate::error::{ErrorKind, Result};
@@ -46,6 +51,16 @@ impl Shaders {
         let mut times = self.graphics.for_each(|_, used| used);
         times.extend(self.compute.for_each(|_, used| used));
         let first = first_to_stay(times, most);
-        self.graphics.drop_before(first) + self.compute.drop_before(first)
+        let mut dropped = self.graphics.drop_before(first);
+        dropped.extend(self.compute.drop_before(first));
+        // Others may get their handles.
+        let mut ran = self.ran();
+        ran.retain(|pipeline| !dropped.contains(pipeline));
+        dropped.len()
+    }
+
+    /// The pipelines that ran in a step of a frame.
+    pub(crate) fn ran(&self) -> MutexGuard<'_, HashSet<vk::Pipeline>> {
+        self.ran.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

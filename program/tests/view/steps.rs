@@ -1,0 +1,94 @@
+//! Pipelines that run for the first time: a driver that compiles them then, as lavapipe does where it finds nothing on disk, holds up a step of a picture, not the window.
+
+use std::{fs, io::Write as _, process::Stdio};
+
+use super::{
+    CAMERA,
+    rest::cube,
+    screen::Screen,
+    window::{Folder, View, render, surfel},
+};
+
+/// The lines of frames that were printed since, by their first word.
+fn frames(printed: &str, since: usize) -> Vec<&str> {
+    let words = printed[since..].lines().filter_map(|line| line.split_whitespace().next());
+    words.filter(|word| matches!(*word, "step" | "whole" | "moving" | "other")).collect()
+}
+
+/// The camera as the program prints it where it is copied, between lines of frames.
+fn camera(screen: &Screen, view: &mut View<'_>) -> Vec<String> {
+    let since = view.printed().len();
+    let line = |view: &View<'_>| {
+        let printed = view.printed();
+        let line = printed[since..].split_inclusive('\n').find(|line| line.starts_with("--eye"));
+        line.filter(|line| line.ends_with('\n')).map(str::to_owned)
+    };
+    screen.key("c");
+    view.wait("the camera is printed", |view| line(view).is_some());
+    // The message over the picture goes.
+    screen.key("Escape");
+    line(view).unwrap().split_whitespace().map(str::to_owned).collect()
+}
+
+#[test]
+fn pipelines_that_never_ran_are_compiled_step_by_step_and_what_changes_meanwhile_is_drawn() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    let words = [&["a.ply", "--size", "320x240", "--samples", "1"], &CAMERA[..]].concat();
+    let mut view = View::open_in(
+        &screen,
+        &folder,
+        &[&words[..], &["--print-frames"]].concat(),
+        true,
+        &[("MESA_SHADER_CACHE_DISABLE", "true")],
+    );
+    view.wait_for(&render(&folder, &words));
+    view.wait("the first picture is told", |view| frames(&view.printed(), 0).contains(&"whole"));
+    // Planes take other pipelines. What is asked for before they have run comes after them.
+    screen.key("X");
+    let printed = view.printed().len();
+    view.wait("a step is done", |view| frames(&view.printed(), printed).contains(&"step"));
+    screen.drag([160, 120], [210, 100], 1);
+    screen.key("equal");
+    let cut = camera(&screen, &mut view);
+    assert!(cut.iter().any(|word| word == "--clip-plane"), "{cut:?}");
+    let of_cut = ["a.ply", "--size", "320x240", "--samples", "1"];
+    let of_cut = of_cut.into_iter().chain(cut.iter().map(String::as_str)).collect::<Vec<_>>();
+    view.wait_for(&render(&folder, &of_cut));
+    // Two pictures at once, the second by another method, and back.
+    for keys in ["r x", "0 x", "0"] {
+        keys.split_whitespace().for_each(|key| screen.key(key));
+    }
+    screen.key("Escape");
+    let words = words.iter().filter(|word| !CAMERA.contains(word)).copied();
+    let camera = camera(&screen, &mut view);
+    let turned = words.chain(camera.iter().map(String::as_str)).collect::<Vec<_>>();
+    view.wait_for(&render(&folder, &turned));
+    // Nothing is left that never ran.
+    let printed = view.printed().len();
+    screen.drag([160, 120], [200, 110], 1);
+    view.wait("a picture comes", |view| frames(&view.printed(), printed).contains(&"whole"));
+    assert!(!frames(&view.printed(), printed).contains(&"step"));
+    view.end();
+}
+
+/// The file is standard input, of which nothing comes before the window has drawn what it draws for its pipelines.
+#[test]
+fn pipelines_have_run_before_the_first_file_is_read() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    cube(&folder, "a.obj");
+    assert_eq!(surfel(&folder, &["convert", "a.obj", "a.ply", "--resample", "150k"], &[]).code, 0);
+    let words = |file| [&[file, "--size", "640x480", "--samples", "1"], &CAMERA[..]].concat();
+    let fed = [&words("-")[..], &["--print-frames"]].concat();
+    let environment = [("MESA_SHADER_CACHE_DISABLE", "true")];
+    let mut view = View::open_fed(&screen, &folder, &fed, (true, &environment), Stdio::piped());
+    view.wait("it has drawn", |view| frames(&view.printed(), 0).contains(&"other"));
+    let mut input = view.take_input();
+    let printed = view.printed().len();
+    input.write_all(&fs::read(folder.path("a.ply")).unwrap()).unwrap();
+    drop(input);
+    view.wait_for(&render(&folder, &words("a.ply")));
+    view.wait("the picture is told", |view| frames(&view.printed(), printed).contains(&"whole"));
+    assert_eq!(frames(&view.printed(), printed)[0], "whole");
+    view.end();
+}
