@@ -53,6 +53,9 @@ impl Renderer {
         plan: &PickPlan<'_>,
         answer: vk::Buffer,
     ) -> Result<()> {
+        if plan.is_empty() {
+            return Ok(());
+        }
         // SAFETY: this function's contract.
         unsafe { slot.begin(passes::needs_of_pick(), None) }?;
         // SAFETY: this function's contract.

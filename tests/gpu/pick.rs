@@ -214,6 +214,8 @@ fn normals_are_of_the_world_toward_the_eye_and_pixels_are_of_the_picture() {
         seen += 1;
     }
     assert!(seen > 20);
+    let nothing = headless.prepare(&Scene::default(), &|_, _| {}).unwrap();
+    assert_eq!(headless.pick(&nothing, &sphere.camera, &sphere.settings, [0, 0]).unwrap(), None);
     let [width, height] = sphere.settings.size_px;
     let error = headless.pick(&prepared, &sphere.camera, &sphere.settings, [width, 0]).unwrap_err();
     assert_eq!(error.to_string(), format!("--pick: {width},0: expected a pixel of {width}x{height}"));

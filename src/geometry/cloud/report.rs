@@ -98,8 +98,9 @@ impl fmt::Display for CloudReport {
         };
         write!(
             f,
-            "{}: {found} found from {neighbors} neighbors each{turned}",
-            number(self.points, "point", "points")
+            "{}: {found} found from {} each{turned}",
+            number(self.points, "point", "points"),
+            number(neighbors, "neighbor", "neighbors")
         )?;
         let parts = [
             (self.duplicates, "duplicate", "duplicates", "merged"),

@@ -112,6 +112,11 @@ impl<'a> PickPlan<'a> {
         Self { draws, meshes, listed, ray, planes, scene }
     }
 
+    /// Nothing is there that may be seen: the device has nothing to do.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.ray.is_empty
+    }
+
     /// The planes that cut what is seen.
     pub(crate) fn planes(&self) -> &[ShaderPlane] {
         &self.planes
