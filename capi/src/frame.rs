@@ -39,7 +39,7 @@ pub struct SurfelFrame {
     /// What the host has drawn hides transparent things pixel by pixel between each other: its depth. Needed where anything is transparent
     /// and the rendering has a depth. What is opaque is tested by the host's own test when it is drawn.
     pub hides: *const SurfelDepthImage,
-    /// From world to the host's view space, whatever its axes: a motion, without scale.
+    /// From world to the host's view space, whatever its axes and its unit: a motion, and one scale of all directions.
     pub view_from_world: [f64; 16],
     /// From view to clip space as Vulkan has it; perspective or orthographic, off-center, jittered, depth reversed or not, finite or
     /// infinite. Pixels are square.

@@ -5,11 +5,11 @@ use glam::{DMat3, DMat4, DQuat, DVec3, DVec4};
 use super::{Camera, Window, placement::MIRRORED};
 use crate::error::{Error, Result};
 
-/// An engine's camera: any motion, any perspective or orthographic projection with square pixels: off-center, jittered, with y up or down,
+/// An engine's camera: any motion and unit, any perspective or orthographic projection with square pixels: off-center, jittered, with y up or down,
 /// with depth reversed or not, finite or infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HostCamera {
-    /// From world to the engine's view space, whatever its axes: a motion, without scale.
+    /// From world to the engine's view space, whatever its axes and its unit: a motion, and one scale of all directions.
     pub view_from_world: DMat4,
     /// From view to clip space as Vulkan has it: x and y from −w to w, depth from 0 to w.
     pub clip_from_view: DMat4,
@@ -54,14 +54,16 @@ impl HostCamera {
     /// The camera that gives a picture of this size, and the engine's depth.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Option`] for matrices that are not finite, a view that scales or shears, a projection that is none, mirrors the
+    /// [`crate::error::ErrorKind::Option`] for matrices that are not finite, a view that shears or scales differently by direction, a projection that is none, mirrors the
     /// picture, or has pixels that are not square; as [`Camera::validate`].
     pub fn camera(&self, size_px: [u32; 2]) -> Result<(Camera, DepthOfHost)> {
         if !self.view_from_world.is_finite() || !self.clip_from_view.is_finite() {
             return refused("the matrices are not finite");
         }
-        let (rotation, eye) = self.motion()?;
-        let Lens { is_perspective, rows: [x, y, depth], forward } = Lens::of(&self.clip_from_view)?;
+        let (rotation, eye, view_from_world_scale) = self.motion()?;
+        // In the world's unit.
+        let clip_from_view = self.clip_from_view * DMat4::from_scale(DVec3::splat(view_from_world_scale));
+        let Lens { is_perspective, rows: [x, y, depth], forward } = Lens::of(&clip_from_view)?;
         let y = if self.flips_y { -y } else { y };
         // Offsets of the picture's middle in clip space: beside z in a perspective, beside 1 else.
         let offset = |row: DVec4| if is_perspective { row.z * forward } else { row.w };
@@ -126,15 +128,19 @@ impl HostCamera {
         Ok((camera, depth))
     }
 
-    /// The rotation into view space, and the eye.
-    fn motion(&self) -> Result<(DMat3, DVec3)> {
+    /// The rotation into view space, the eye, and the world's unit in that of view space.
+    fn motion(&self) -> Result<(DMat3, DVec3, f64)> {
         let view = &self.view_from_world;
         let linear = DMat3::from_mat4(*view);
+        let found = linear.determinant().abs().cbrt();
+        // What is no more than rounding is none, so that matrices of engines without one keep their bits.
+        let scale = if (found - 1.0).abs() <= ROUNDING { 1.0 } else { found };
+        let linear = linear * scale.recip();
         let left = linear.transpose() * linear - DMat3::IDENTITY;
         let is_motion =
             view.row(3) == DVec4::W && left.to_cols_array().iter().all(|part| part.abs() <= ROUNDING);
         if !is_motion {
-            return refused("view_from_world scales or shears: expected a motion");
+            return refused("view_from_world shears, or scales differently by direction: expected a motion");
         }
         // A mirrored view has a mirrored projection.
         let mirror = if linear.determinant() < 0.0 {
@@ -143,7 +149,7 @@ impl HostCamera {
             DMat3::IDENTITY
         };
         let rotation = mirror * DMat3::from_quat(DQuat::from_mat3(&(mirror * linear)).normalize());
-        Ok((rotation, -(rotation.transpose() * view.w_axis.truncate())))
+        Ok((rotation, -(rotation.transpose() * view.w_axis.truncate()) / scale, scale))
     }
 }
 

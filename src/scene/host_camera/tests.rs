@@ -40,8 +40,12 @@ fn projections() -> Vec<(&'static str, DMat4, bool)> {
 fn points_have_the_engines_pixels_and_depths() {
     let far_off = DVec3::new(500_000.0, 4_600_000.0, 300.0);
     for origin in [DVec3::ZERO, far_off] {
-        let view_from_world = looking(origin + DVec3::new(3.0, 2.0, 4.0), origin);
-        for (name, clip_from_view, flips_y) in projections() {
+        let in_meters = looking(origin + DVec3::new(3.0, 2.0, 4.0), origin);
+        // Of an engine that counts in centimeters there, and one in kilometers.
+        let units = [1.0, 100.0, 1e-3].map(|unit| DMat4::from_scale(DVec3::splat(unit)));
+        let each = projections().into_iter().flat_map(|of| units.map(|unit| (unit, of)));
+        for (unit, (name, in_meters_too, flips_y)) in each {
+            let (view_from_world, clip_from_view) = (unit * in_meters, in_meters_too * unit.inverse());
             let host = HostCamera { view_from_world, clip_from_view, flips_y };
             let (camera, depth) = host.camera(SIZE_PX).unwrap();
             let (view, focal_px) = (camera.view_from_world(), camera.focal_px(SIZE_PX[1]));
@@ -109,8 +113,12 @@ fn what_is_no_camera_is_refused_by_name() {
     assert!(of(DMat4::NAN).contains("finite"));
     let view_from_world = plain.view_from_world * 2.0;
     assert!(problem(HostCamera { view_from_world, ..plain }).contains("expected a motion"));
-    let view_from_world = plain.view_from_world * DMat4::from_scale(DVec3::splat(1.001));
+    let view_from_world = plain.view_from_world * DMat4::from_scale(DVec3::new(1.001, 1.0, 1.0));
     assert!(problem(HostCamera { view_from_world, ..plain }).contains("expected a motion"));
+    for scale in [0.0, 1e-300] {
+        let view_from_world = DMat4::from_scale(DVec3::splat(scale)) * plain.view_from_world;
+        assert!(problem(HostCamera { view_from_world, ..plain }).contains("expected a motion"));
+    }
 }
 
 /// Engines of left-handed worlds look along +z, y up.
