@@ -21,11 +21,6 @@ impl Viewer {
     /// The error, where it is not.
     pub fn recover(&mut self, error: Error) -> Result<()> {
         self.steps = None;
-        let was_warming = self.prepared.is_none() && self.warm.take().is_some();
-        if was_warming && !is_device_lost(&error) {
-            self.changed();
-            return Ok(());
-        }
         // Methods that a camera rules out, and cameras beyond what 32 bits tell apart.
         if let (ErrorKind::Option { .. }, Some((settings, camera))) = (error.kind(), self.drawn.take()) {
             self.tell(&error.to_string());

@@ -9,6 +9,7 @@ use surfel::{
 };
 
 use super::{
+    device::is_device_lost,
     document::Document,
     frame_desc::{Drawn, FrameDesc},
     keys::Comparing,
@@ -111,7 +112,16 @@ impl Viewer {
         self.learn(is_moving)?;
         let overlay = self.run_ui()?;
         let was_step = self.steps.is_some();
-        let (drawn, which) = self.draw(is_moving, overlay.as_ref())?;
+        let is_warming = self.prepared.is_none() && self.warm.is_some();
+        let (drawn, which) = match self.draw(is_moving, overlay.as_ref()) {
+            // What the picture that nobody sees can't have, the first one tells.
+            Err(error) if is_warming && !is_device_lost(&error) => {
+                (self.steps, self.warm) = (None, None);
+                self.changed();
+                return Ok(());
+            }
+            drawn => drawn?,
+        };
         self.tidies = Some(now + TIDY);
         match drawn {
             Drawn::Hidden => {}
