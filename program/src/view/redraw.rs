@@ -135,6 +135,8 @@ impl Viewer {
                     // What has changed since its first step is drawn next.
                     if !was_step {
                         self.is_stale = false;
+                    }
+                    if !was_step || self.drawn.is_none() {
                         self.drawn = Some((self.settings.clone(), camera));
                     }
                 }
