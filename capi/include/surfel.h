@@ -973,7 +973,7 @@ typedef struct SurfelFrame {
    */
   const struct SurfelDepthImage *hides;
   /**
-   * From world to the host's view space, whatever its axes: a motion, without scale.
+   * From world to the host's view space, whatever its axes and its unit: a motion, and one scale of all directions.
    */
   double viewFromWorld[16];
   /**
