@@ -10,16 +10,11 @@ const SHARE: f64 = 0.5;
 /// The cosine of the angle to the view up to which a side is flat: 5°.
 const FACING: f64 = 0.9962;
 
-/// How long the sum of the normals of a closed cloud may be, in parts of its area, as scans have holes; and what part of the area at least is no nearer to facing the eye
-/// than 60°: a wall whose normals are on no side has neither.
-const UNBALANCED: f64 = 0.25;
-const SIDES: f64 = 0.1;
-const SIDEWAYS: f64 = 0.5;
-
 /// Whether half or more of a closed thing's area, as an eye far away in a direction sees it, faces that eye within 5°. False of what is open:
-/// a wall, a relief or a terrain is what its owner wants to see. A cloud, which no triangles close, is closed if its normals are: their sum over a closed surface is zero.
+/// a wall, a relief or a terrain is what its owner wants to see.
 pub fn is_flat_in_front(scene: &Scene, toward_eye: DVec3) -> bool {
-    if !is_closed(scene, toward_eye) {
+    let closed = scene.objects.iter().map(|object| object.closed);
+    if !closed.chain(scene.meshes.iter().map(|object| object.closed)).all(|closed| closed) {
         return false;
     }
     let [mut flat, mut all] = [0.0; 2];
@@ -34,24 +29,6 @@ pub fn is_flat_in_front(scene: &Scene, toward_eye: DVec3) -> bool {
     };
     add_all(scene, &mut add);
     all > 0.0 && flat >= SHARE * all
-}
-
-fn is_closed(scene: &Scene, toward_eye: DVec3) -> bool {
-    if !scene.meshes.iter().all(|object| object.closed) {
-        return false;
-    }
-    if scene.objects.iter().all(|object| object.closed) {
-        return true;
-    }
-    let (mut sum, [mut sideways, mut all]) = (DVec3::ZERO, [0.0; 2]);
-    add_all(scene, &mut |normal, area| {
-        if area.is_finite() {
-            sum += area * normal;
-            sideways += if normal.dot(toward_eye).abs() < SIDEWAYS { area } else { 0.0 };
-            all += area;
-        }
-    });
-    sum.length() <= UNBALANCED * all && sideways >= SIDES * all
 }
 
 /// The share of a scene's area that an eye far away in a direction would see if nothing hid anything: 1 where all faces it or faces away,
@@ -141,24 +118,6 @@ mod tests {
         let share = share_facing(&Scene { meshes: vec![ball], ..Scene::default() }, DVec3::Z);
         assert!((share - 0.5).abs() < 0.02, "{share}");
         assert_eq!(share_facing(&Scene::default(), DVec3::Z), 0.0);
-    }
-
-    #[test]
-    fn clouds_are_closed_as_their_normals_are() {
-        let is_flat = |sides: &[(Vec3, f32)]| {
-            let (normals, radii) = sides.iter().map(|(normal, area)| (*normal, area.sqrt())).unzip();
-            let splats = Splats::new(
-                vec![DVec3::ZERO; sides.len()],
-                Shapes::Disks { normals, radii },
-                Colors::unknown(),
-            );
-            let object = Object { name: String::new(), splats, closed: false };
-            is_flat_in_front(&Scene { objects: vec![object], ..Scene::default() }, DVec3::Z)
-        };
-        let of_box = [(Vec3::Z, 1.0), (Vec3::NEG_Z, 1.0), (Vec3::X, 0.4), (Vec3::NEG_X, 0.4), (Vec3::Y, 0.6)];
-        assert!(is_flat(&of_box), "its bottom is not scanned");
-        assert!(!is_flat(&[&of_box[..1], &of_box[2..]].concat()), "nor its back");
-        assert!(!is_flat(&of_box[..2]), "a wall whose normals are on no side");
     }
 
     #[test]
