@@ -96,7 +96,7 @@ void main()
         sum(unhidden(range), false);
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             if (COVERAGE_EDGES && !WITH_DEPTH) {
-                normals[row].w = covering_sum(row);
+                normals[row].w = covering_sum(facing_of(normals[row].xyz, colors[row].w, to_eye(top_px + vec2(0.0, float(first_row + row)))), row);
             }
             if (HALF_FLOATS) {
                 fit_half_floats(row);

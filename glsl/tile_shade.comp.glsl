@@ -100,7 +100,8 @@ void shade_edges(Range range)
                 color = mix(color, shaded(beyond.albedo, beyond.normal, v), share_beyond(row));
                 surface.weight += beyond.weight;
             }
-            float opacity = opacity_of(row);
+            vec3 normal_sum = CREASES ? normals[row].xyz + normals_beyond[row].xyz : normals[row].xyz;
+            float opacity = opacity_of(facing_of(normal_sum, surface.weight, v), row);
             bool beside = nearest_polygon[row] > visible[row];
             if (WITH_POLYGONS && beside) {
                 // The polygon is the nearest surface; splats of the same one blend with it (inc/resolve.glsl).

@@ -33,13 +33,18 @@ void main()
     ivec2 in_slot = pixel_in_slot(0);
     vec4 normal_sum = texelFetch(normal_sums, in_slot, 0);
     Surface surface = normalized(texelFetch(color_sums, in_slot, 0), normal_sum.xyz);
-    vec3 light = shaded(surface.albedo, surface.normal, to_eye(top_px + vec2(0.0, float(first_row))));
+    vec3 v = to_eye(top_px + vec2(0.0, float(first_row)));
+    vec3 light = shaded(surface.albedo, surface.normal, v);
     light = HALF_FLOATS ? min(light, HALF_FLOAT_MAX) : light;
     if (WITH_DEPTH) {
         float mean = FORMULA(FORMULA_NORMALIZED_DEPTH, normal_sum.w / surface.weight);
         float own = depth_of_mean(texelFetch(visible_before, in_slot, 0).r, mean);
         imageStore(own_depth, pixel_of(0), vec4(surface.weight > 0.0 ? own : 0.0));
     }
-    float opacity = COVERAGE_EDGES ? edge_opacity(WEIGHTED || WITH_DEPTH ? surface.weight : normal_sum.w, 0.0) : 1.0;
+    float opacity = 1.0;
+    if (COVERAGE_EDGES) {
+        float sum = WEIGHTED || WITH_DEPTH ? surface.weight : normal_sum.w;
+        opacity = edge_opacity(sum, 0.0, facing_of(normal_sum.xyz, surface.weight, v));
+    }
     imageStore(shown, pixel_of(0), surface.weight > 0.0 ? opacity * vec4(light, 1.0) : vec4(0.0));
 }

@@ -37,22 +37,22 @@ void cover(float weight, float part, float kept, int row)
 
 // Of what the surface would cover, what curves leave. Opposite directions are both sides of a ridge, and neighbors may be one side whose curves
 // differ a little: those of two of four that are not opposite count once, by whichever pairs leave less.
-float kept_part(int row)
+float kept_part(float facing, int row)
 {
     vec4 toward = kept_toward[row];
     vec4 pairs = max(toward, toward.yzwx);
     float kept = min(pairs.x + pairs.z, pairs.y + pairs.w);
-    return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y)), 1.0) : 1.0;
+    return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y, facing)), 1.0) : 1.0;
 }
 
 // The sum of weights alone, for whoever finds the opacity from it.
-float covering_sum(int row)
+float covering_sum(float facing, int row)
 {
-    return kept_part(row) * summed[row];
+    return kept_part(facing, row) * summed[row];
 }
 
-// The part of the pixel that the surface covers.
-float opacity_of(int row)
+// The part of the pixel that the surface covers. `facing`: facing_of() it.
+float opacity_of(float facing, int row)
 {
-    return kept_part(row) * edge_opacity(CUTS || !WEIGHTED ? summed[row] : colors[row].w, 1.0 - gap[row]);
+    return kept_part(facing, row) * edge_opacity(CUTS || !WEIGHTED ? summed[row] : colors[row].w, 1.0 - gap[row], facing);
 }

@@ -19,14 +19,23 @@ use crate::scene::{MeshObject, Opacity, Scene, Settings, Transition};
 /// The most surfaces of a pixel.
 const MOST_SURFACES: usize = 3;
 
-/// From this sum on a pixel is covered; sums of a whole surface are not all 1.
-const WHOLE_SUM: f64 = 0.79;
+/// From this sum on a pixel is covered by a surface that faces the eye; sums of a whole surface are not all 1.
+pub(super) const WHOLE_SUM: f64 = 0.79;
+
+/// Below this cosine between normal and ray a surface may end by turning away, above twice that it does not.
+const MAY_END: f64 = 0.3;
+
+/// The square of that cosine of a splat whose image is a pixel large, if it is less.
+const BEND: f64 = 0.12;
+
+/// What weights that end at the rims of splats miss of a surface that ends by turning away: this times √A (1 - A)².
+const LEFT_OUT: f64 = 0.225;
 
 /// What is covered to all but so little is covered.
 const NEARLY_WHOLE: f64 = 0.96;
 
 /// From this sum on, splats hide polygons of the same surface: at a seam half of a whole surface's splats are there.
-const WHOLE_SEAM_SUM: f64 = 0.4;
+const WHOLE_SEAM_SUM: f64 = 0.5;
 
 /// Whether surfaces cover pixels in part: all that is opaque, and what is transparent where there are no polygons in its layers.
 pub(super) fn covers_in_part(scene: &Scene, settings: &Settings, opacity: Opacity) -> bool {
@@ -53,8 +62,7 @@ impl Covering {
         // Of the splat as it was: its rim, in radii of the splat as it is drawn.
         let rim2 = (1.0 - (h_px / self.minor_px).powi(2)).max(0.0);
         let own_minor_px = rim2.sqrt() * self.minor_px;
-        let x = ((own_minor_px / h_px - 0.5) / 0.5).clamp(0.0, 1.0);
-        let is_large = x * x * (3.0 - 2.0 * x);
+        let is_large = smooth_step((own_minor_px / h_px - 0.5) / 0.5);
         // A half plane at distance d, under a Gaussian of standard deviation h / 2: to first order 1/2 + d / (√(2π) h / 2).
         let distance_px = (rim2 - r2) * self.minor_px / 2.0;
         is_large * (0.5 + distance_px / ((2.0 * std::f64::consts::PI).sqrt() * h_px / 2.0))
@@ -69,9 +77,31 @@ struct Part<'a> {
     kept: Option<Kept>,
 }
 
-/// Of a sum over the overlap, and of what disks cover by themselves.
-fn whole(sum: f64, alone: f64) -> f64 {
-    let part = if sum < 0.5 { sum } else { 0.5 + 0.5 * (sum - 0.5) / (WHOLE_SUM - 0.5) };
+/// From 0 at `x` = 0 to 1 at 1.
+fn smooth_step(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+/// How surely a surface does not end where its normal and the ray have the cosine `facing`, if it may end up to `may_end`.
+pub(super) fn surely_inside(facing: f64, may_end: f64) -> f64 {
+    smooth_step((facing - may_end) / may_end)
+}
+
+/// How many times weights of a splat count, by how surely it is not at a silhouette. `size_px`: the root of the sum of the squares of its
+/// image's semi-axes.
+pub(super) fn inside_factor(facing: f64, size_px: f64) -> f64 {
+    let surely = surely_inside(facing, (BEND / size_px).sqrt().min(MAY_END));
+    1.0 - surely + surely / WHOLE_SUM
+}
+
+/// Of a sum over the overlap, and of what disks cover by themselves, of a surface of this cosine.
+fn whole(sum: f64, alone: f64, facing: f64) -> f64 {
+    let inside = surely_inside(facing, MAY_END);
+    let whole = 1.0 - inside + inside * WHOLE_SUM;
+    let a = whole * sum.min(1.0);
+    let sum = a + (1.0 - inside) * LEFT_OUT * a.sqrt() * (1.0 - a).powi(2);
+    let part = if sum < 0.5 { sum } else { 0.5 + 0.5 * (sum - 0.5) / (whole - 0.5) };
     (part.max(alone) / NEARLY_WHOLE).min(1.0)
 }
 
@@ -79,7 +109,9 @@ fn whole(sum: f64, alone: f64) -> f64 {
 ///
 /// Up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part; those of both sides
 /// of a ridge leave parts that add up. What no curve cuts in the pixel is left, too.
-fn opacity(parts: &[Part]) -> f64 {
+///
+/// `facing`: the cosine between the ray and the mean of the normals.
+fn opacity(parts: &[Part], facing: f64) -> f64 {
     let sum = |which: &dyn Fn(&Part) -> bool| -> f64 {
         parts.iter().filter(|part| which(part)).map(|part| part.covering.share * part.kernel).sum()
     };
@@ -87,7 +119,7 @@ fn opacity(parts: &[Part]) -> f64 {
         let gaps = parts.iter().filter(|part| which(part)).map(|part| part.covering.alone(part.r2));
         1.0 - gaps.map(|alone| 1.0 - alone.clamp(0.0, 1.0)).product::<f64>()
     };
-    let without_curves = |which: &dyn Fn(&Part) -> bool| whole(sum(which), alone(which));
+    let without_curves = |which: &dyn Fn(&Part) -> bool| whole(sum(which), alone(which), facing);
     let cut = |part: &Part| part.kept.filter(|kept| kept.part < 1.0);
     let toward = [0, 1, 2, 3].map(|quarter| {
         let toward = parts.iter().filter_map(cut).filter(|kept| kept.toward == quarter);
@@ -153,7 +185,7 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
         let part = match frame.settings.transition {
             Transition::None if beside => 0.0,
             _ if beside => (sums.weight() / WHOLE_SEAM_SUM).min(1.0),
-            _ => covered(&of_surface, splat_of),
+            _ => covered(&of_surface, splat_of, sums.facing(ray)),
         };
         if let Some(color) = sums.color(&frame.shader, ray) {
             let part = part.min(1.0 - seen.alpha);
@@ -182,6 +214,7 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
 pub(super) fn covered<'a>(
     fragments: &[&Translucent],
     splat_of: impl Fn(&Translucent) -> &'a DrawnSplat,
+    facing: f64,
 ) -> f64 {
     let parts: Vec<_> = fragments
         .iter()
@@ -190,7 +223,7 @@ pub(super) fn covered<'a>(
             Some(Part { covering: splat_of(fragment).covering.as_ref()?, kernel, r2, kept })
         })
         .collect();
-    opacity(&parts)
+    opacity(&parts, facing)
 }
 
 impl Opaque {

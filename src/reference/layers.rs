@@ -3,13 +3,13 @@
 
 use glam::DVec3;
 
-use super::covering::covered;
+use super::covering::{WHOLE_SUM, covered};
 use super::decision::Decision;
 use super::drawn_clip::Kept;
 use super::fragment::Fragment;
 use super::shade::Shader;
 use super::splat::DrawnSplat;
-use super::surface::{Attributes, Sums, direction};
+use super::surface::{Attributes, Sums, direction, facing};
 use super::transition::{Premultiplied, Splatted, join};
 use super::triangle::DrawnTriangle;
 use crate::scene::{LastLayer, Settings};
@@ -119,6 +119,8 @@ impl Transparent<'_> {
             LastLayer::Drop => (most, false),
             LastLayer::Blend | LastLayer::Stack => (most - 1, true),
         };
+        // The sum of one surface, where it does not end.
+        let whole = if self.covers_in_part { 1.0 / WHOLE_SUM } else { 1.0 };
         let mut weight_before = None;
         let mut stack = Stack::EMPTY;
         while !remaining.is_empty() {
@@ -126,11 +128,11 @@ impl Transparent<'_> {
                 let blended = self.blend(ray, &remaining);
                 let rest = match (self.settings.last_layer, weight_before) {
                     (LastLayer::Stack, Some(before)) => {
-                        stacked(blended, weight_of(&remaining) / f64::max(before, 1.0))
+                        stacked(blended, weight_of(&remaining) / f64::max(before, whole))
                     }
                     _ => blended,
                 };
-                let part = if self.covers_in_part { self.covered(&remaining) } else { 1.0 };
+                let part = if self.covers_in_part { self.covered(&remaining, 1.0) } else { 1.0 };
                 stack.put_behind(Premultiplied { color: part * rest.color, alpha: part * rest.alpha });
             }
             let (layer, margin) = take_nearest(&mut remaining);
@@ -163,20 +165,20 @@ impl Transparent<'_> {
         let shade = |attributes: &Attributes| self.shader.shade(attributes.albedo, attributes.normal, ray);
         if self.covers_in_part {
             let Some(splats) = splats else { return Premultiplied::NONE };
-            let alpha = splats.attributes.alpha * self.covered(layer);
+            let alpha = splats.attributes.alpha * self.covered(layer, facing(sums.normal, sums.weight, ray));
             return Premultiplied { color: alpha * shade(&splats.attributes), alpha };
         }
         let polygons = mean(&polygons).map(|polygon| turned(polygon, ray));
         join(self.settings.transition, splats, polygons, shade)
     }
 
-    /// The part of the pixel that they cover.
-    fn covered(&self, fragments: &[Translucent]) -> f64 {
+    /// The part of the pixel that they cover; of several surfaces at once, `facing` is 1.
+    fn covered(&self, fragments: &[Translucent], facing: f64) -> f64 {
         let splat_of = |fragment: &Translucent| match fragment.source {
             Source::Splat(i) => &self.splats[i],
             Source::Triangle(_) => unreachable!("edges beside polygons in layers are hard"),
         };
-        covered(&fragments.iter().collect::<Vec<_>>(), splat_of)
+        covered(&fragments.iter().collect::<Vec<_>>(), splat_of, facing)
     }
 
     /// All fragments at once, each lit by itself, as the last layer: `C = Σ wα·shade / Σ wα`, `α = Σ wα / Σ w`, whose

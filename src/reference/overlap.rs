@@ -7,6 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::clip::removes;
+use super::covering::surely_inside;
 use super::kernel::{limit_r2, weight};
 use super::tangents::tangents;
 use crate::scene::{Clip, ClipTest, Kernel, Splats};
@@ -77,14 +78,13 @@ pub(super) fn evened(splats: &Splats, overlaps: Vec<f64>) -> Vec<f64> {
     vec![mean; overlaps.len()]
 }
 
-/// How much more than by their overlap splats that curves end, and those beside them, weigh by the cosine between normal and ray: the sums of flat
+/// How many times weights of splats that curves end, and of those beside them, count by the cosine between normal and ray: the sums of flat
 /// sides fall toward ridges, where the curves tell what is covered. Not where the surface ends by turning away.
 pub(super) fn sum_of_sharp(splats: &Splats, cosine: f64) -> f64 {
     if splats.clips.is_empty() {
         return 1.0;
     }
-    let x = ((cosine.abs() - 0.3) / 0.3).clamp(0.0, 1.0);
-    1.0 + 0.7 * x * x * (3.0 - 2.0 * x)
+    1.0 + 0.7 * surely_inside(cosine.abs(), 0.3)
 }
 
 fn all_along_x(splats: &Splats) -> Vec<Among> {

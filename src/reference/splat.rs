@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use super::affine::ImageEllipse;
-use super::covering::{Covering, covers_in_part};
+use super::covering::{Covering, covers_in_part, inside_factor};
 use super::drawn_clip::DrawnClip;
 use super::epsilon::{EpsilonRule, polygon_reach};
 use super::ewa::Stretched;
@@ -229,8 +229,10 @@ fn prepare_one(
         Map::Affine(ellipse) => ellipse.lengths[1],
         Map::Stretched(stretched) => stretched.ellipse.lengths[1],
     };
-    let overlap = overlap.map(|overlap| overlap / sum_of_sharp(splats, outward.dot(center.normalize())));
     let image_size = map.size([projected(center, s), projected(center, t)]);
+    let cosine = outward.dot(center.normalize()).abs();
+    let factor = inside_factor(cosine, view.focal_px * image_size) * sum_of_sharp(splats, cosine);
+    let overlap = overlap.map(|overlap| overlap / factor);
     let low_pass = (in_front && settings.filter == Filter::Max).then(|| LowPass {
         center: center.truncate() / center.z,
         radius: h,

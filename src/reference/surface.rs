@@ -24,7 +24,7 @@ pub(super) struct Sums {
     pub weight: f64,
     pub fragments: u32,
     albedo: DVec3,
-    normal: DVec3,
+    pub normal: DVec3,
     z: f64,
     alpha: f64,
 }
@@ -95,6 +95,11 @@ impl Sums {
             color: shader.shade(albedo, normal, ray),
         })
     }
+}
+
+/// The cosine between a ray and the mean of unit normals whose weights sum to `weight`.
+pub(super) fn facing(sum: DVec3, weight: f64, ray: DVec3) -> f64 {
+    if weight > 0.0 { (sum.dot(ray.normalize()).abs() / weight).min(1.0) } else { 0.0 }
 }
 
 /// The direction of a sum of unit normals whose weights sum to `weight`; toward the eye where they cancel.
