@@ -214,6 +214,10 @@ enum SurfelStructureType
    * `SurfelMesh`.
    */
   SURFEL_STRUCTURE_TYPE_MESH = 14,
+  /**
+   * `SurfelRoom`.
+   */
+  SURFEL_STRUCTURE_TYPE_ROOM = 15,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -555,6 +559,42 @@ typedef struct SurfelClip {
 } SurfelClip;
 
 /**
+ * Numbers of an object of splats behind those that it is uploaded with, which have nothing yet: `surfel_append` and `surfel_update` put splats there. Of an object that has it,
+ * `surfel_remove` takes splats away, its own ones, too. For scenes that are `updatable`.
+ */
+typedef struct SurfelRoom {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_ROOM`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelRoom)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * How many numbers, of 40 bytes on the device each, 56 of ellipses; with none, splats are only taken away, and put back.
+   */
+  uint32_t splats;
+  /**
+   * `around` is a place in the scene's own space near which they will be; else they will be near the object, or, of none, near the origin. What is farther from it than 2000 times its own
+   * smaller half axis is placed less exactly.
+   */
+  VkBool32 hasAround;
+  /**
+   * That place.
+   */
+  double around[3];
+  /**
+   * How many disks will lie over a place of the surface, where they are fewest; 0: as many as in the object, and of none 2.
+   */
+  double overlap;
+} SurfelRoom;
+
+/**
  * An object of splats, by arrays. Disks have `normals` and `radii`, ellipses have `tangentsS` and `tangentsT`; the other two are NULL.
  */
 typedef struct SurfelSplats {
@@ -626,6 +666,10 @@ typedef struct SurfelSplats {
    * As `epsilon`, in mean radii of the object; one of both is 0.
    */
   double epsilonInRadii;
+  /**
+   * Room for splats that come later; NULL: none comes, and none goes. Not for those that `surfel_update` and `surfel_append` are given.
+   */
+  const struct SurfelRoom *room;
 } SurfelSplats;
 
 /**
@@ -1320,6 +1364,32 @@ SurfelResult surfel_prepared_scene_info(const struct SurfelPreparedScene *scene,
  * Destroys a scene on the device; NULL is nothing. Its memory is freed when the epoch that is recorded now is done.
  */
 void surfel_prepared_scene_destroy(struct SurfelPreparedScene *scene);
+
+/**
+ * Records that splats are added to an object which has `room`, behind the last one there; `first` is the number of the first then, the others follow. By them `surfel_update` changes
+ * and `surfel_remove` removes them: numbers of others stay. `first` may be NULL. All else is as of `surfel_update`; an object without enough room behind its last splat is refused.
+ */
+SurfelResult surfel_append(const struct SurfelRenderer *renderer,
+                           VkCommandBuffer commands,
+                           struct SurfelPreparedScene *scene,
+                           uint64_t object,
+                           const struct SurfelSplats *splats,
+                           uint32_t *first);
+
+/**
+ * Records that `count` splats from number `first` on are taken out of an object which has `room`; numbers that have none are left alone. All else is as of `surfel_update`.
+ */
+SurfelResult surfel_remove(const struct SurfelRenderer *renderer,
+                           VkCommandBuffer commands,
+                           struct SurfelPreparedScene *scene,
+                           uint64_t object,
+                           uint32_t first,
+                           uint32_t count);
+
+/**
+ * Tells how many splats `surfel_append` has room for yet, behind the last one that an object has there; 0 of one without room.
+ */
+SurfelResult surfel_room_of(const struct SurfelPreparedScene *scene, uint64_t object, uint32_t *splats);
 
 /**
  * Makes settings: each has its default.

@@ -23,6 +23,7 @@ mod mesh;
 
 mod dynamic;
 mod renderer;
+mod rooms;
 
 mod settings;
 

@@ -12,6 +12,7 @@ use surfel::{
 use crate::{
     handle::{Out, Place, destroy, get, get_mut, text},
     result::{Failure, Result, SurfelResult, guard},
+    rooms::room,
     settings::set,
     splats::{SurfelSplats, array, object},
     structs::{Struct, SurfelStructureType, read},
@@ -116,8 +117,13 @@ pub unsafe extern "C" fn surfel_scene_add_splats(
         // SAFETY: the contract of the header.
         let (scene, splats) = unsafe { (get_mut(scene, "scene")?, read(splats, "splats")?) };
         // SAFETY: the contract of the header.
-        let object = unsafe { object(&splats) }?;
-        add(&mut scene.0, object, [splats.epsilon, splats.epsilon_in_radii])
+        let (object, room) = unsafe { (object(&splats)?, room(splats.room)?) };
+        add(&mut scene.0, object, [splats.epsilon, splats.epsilon_in_radii])?;
+        if room.is_some() {
+            scene.0.rooms.resize(scene.0.objects.len() - 1, None);
+            scene.0.rooms.push(room);
+        }
+        Ok(())
     })
 }
 

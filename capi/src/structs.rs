@@ -40,6 +40,8 @@ pub enum SurfelStructureType {
     Memory = 13,
     /// `SurfelMesh`.
     Mesh = 14,
+    /// `SurfelRoom`.
+    Room = 15,
 }
 
 /// No struct is larger in any version: a size beyond is none that a header gave it.

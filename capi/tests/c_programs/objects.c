@@ -50,6 +50,97 @@ static void begin(Engine *engine, const Attachment colors[3]) {
     vkCmdBeginRendering(engine->commands, &info);
 }
 
+/* How many pixels are not of what the engine clears to, of a scene seen from afar. */
+static int seen(Engine *engine, SurfelDevice *device, SurfelView *view, SurfelFrame *frame) {
+    OK(surfel_view_prepare(view, engine->commands, frame));
+    engine_begin_rendering(engine, 1);
+    OK(surfel_view_draw(view, engine->commands));
+    engine_end_rendering(engine);
+    engine_submit(engine);
+    uint64_t epoch;
+    OK(surfel_device_end_epoch(device, &epoch));
+    OK(surfel_device_epoch_done(device, epoch));
+    int count = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) count += memcmp(engine->pixels + 4 * i, engine->pixels, 16) != 0;
+    return count;
+}
+
+/* Splats come to an object of none, and go again. */
+void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
+    static double centers[3 * COUNT];
+    static float normals[3 * COUNT], radii[COUNT];
+    engine_ball(COUNT, centers, normals, radii);
+    for (int i = 0; i < COUNT; i++) centers[3 * i] += 5e5;
+    const float color[] = {0, 0.5f, 1, 1};
+    SurfelRoom room = {.sType = SURFEL_STRUCTURE_TYPE_ROOM, .size = sizeof room, .splats = COUNT + 7, .hasAround = VK_TRUE,
+                       .around = {5e5, 0, 0}, .overlap = 1.5};
+    SurfelSplats splats = {.sType = SURFEL_STRUCTURE_TYPE_SPLATS, .size = sizeof splats, .centers = centers,
+                           .normals = normals, .radii = radii, .colors = color, .colorCount = 1, .room = &room};
+    SurfelSceneInfo made = {.sType = SURFEL_STRUCTURE_TYPE_SCENE_INFO, .size = sizeof made};
+    SurfelScene *scene;
+    SurfelPreparedScene *prepared;
+    OK(surfel_scene_create(&made, &scene));
+    OK(surfel_scene_add_splats(scene, &splats));
+    engine_begin(engine);
+    IS(OPTION, surfel_upload(renderer, engine->commands, scene, &prepared), "room of object 0: expected a scene with Scene::updatable");
+    surfel_scene_destroy(scene);
+    made.updatable = VK_TRUE;
+    OK(surfel_scene_create(&made, &scene));
+    room.sType = SURFEL_STRUCTURE_TYPE_SPLATS;
+    IS(UNKNOWN_STRUCT, surfel_scene_add_splats(scene, &splats), "room: sType 5: expected 15 (Room)");
+    room.sType = SURFEL_STRUCTURE_TYPE_ROOM;
+    OK(surfel_scene_add_splats(scene, &splats));
+    OK(surfel_upload(renderer, engine->commands, scene, &prepared));
+    surfel_scene_destroy(scene);
+    splats.room = NULL;
+
+    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
+                                       .colorFormats = &format, .colorFormatCount = 1, .depthFormat = VK_FORMAT_D32_SFLOAT};
+    SurfelView *view;
+    OK(surfel_view_create(renderer, &rendering, &view));
+    const SurfelPreparedScene *scenes[] = {prepared};
+    SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes, .sceneCount = 1,
+                         .width = WIDTH, .height = HEIGHT,
+                         .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5e5, 0, -4, 1},
+                         .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
+    TRUE(seen(engine, device, view, &frame) == 0);
+    uint32_t left = 0, first = 9;
+    OK(surfel_room_of(prepared, 0, &left));
+    TRUE(left == COUNT + 7);
+    OK(surfel_room_of(prepared, 1, &left));
+    TRUE(left == 0);
+    engine_begin(engine);
+    splats.count = COUNT;
+    OK(surfel_append(renderer, engine->commands, prepared, 0, &splats, &first));
+    TRUE(first == 0);
+    const int whole = seen(engine, device, view, &frame);
+    engine_begin(engine);
+    splats.count = 8;
+    IS(OPTION, surfel_append(renderer, engine->commands, prepared, 0, &splats, &first), "8 splats behind number 2000 of object 0: it has room up to 2007");
+    IS(OPTION, surfel_append(renderer, engine->commands, prepared, 1, &splats, &first), "object 1 has no room");
+    IS(INVALID_ARGUMENT, surfel_append(renderer, VK_NULL_HANDLE, prepared, 0, &splats, NULL), "commands is NULL");
+    splats.count = 7;
+    OK(surfel_append(renderer, engine->commands, prepared, 0, &splats, &first));
+    TRUE(first == COUNT);
+    OK(surfel_room_of(prepared, 0, &left));
+    TRUE(left == 0);
+    /* The ball of engine.c begins at one pole. */
+    OK(surfel_remove(renderer, engine->commands, prepared, 0, COUNT / 2, COUNT / 2 + 7));
+    const int half = seen(engine, device, view, &frame);
+    engine_begin(engine);
+    IS(OPTION, surfel_remove(renderer, engine->commands, prepared, 0, COUNT, 8), "2000..2008 of object 0: expected numbers in order up to 2007");
+    IS(INVALID_ARGUMENT, surfel_remove(renderer, engine->commands, prepared, 0, 1, UINT32_MAX), "splats from 1 on");
+    OK(surfel_remove(renderer, engine->commands, prepared, 0, 0, COUNT + 7));
+    TRUE(seen(engine, device, view, &frame) == 0);
+    if (whole < 20000 || half < whole / 4 || half > whole * 3 / 4) {
+        printf("%d pixels of a ball, %d of its half\n", whole, half);
+        exit(1);
+    }
+    surfel_view_destroy(view);
+    surfel_prepared_scene_destroy(prepared);
+}
+
 void objects(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     static double centers[3 * COUNT];
     static float normals[3 * COUNT], radii[COUNT];

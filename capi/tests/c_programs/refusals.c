@@ -189,6 +189,7 @@ int main(int argc, char **argv) {
         dynamic(engine, device, renderer);
         steady(engine, device, renderer);
         objects(engine, device, renderer);
+        rooms(engine, device, renderer);
         frames(engine, device, renderer, foreign, i == 0);
     }
     surfel_device_destroy(other);
