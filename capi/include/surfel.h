@@ -218,6 +218,10 @@ enum SurfelStructureType
    * `SurfelRoom`.
    */
   SURFEL_STRUCTURE_TYPE_ROOM = 15,
+  /**
+   * `SurfelMemoryReport`.
+   */
+  SURFEL_STRUCTURE_TYPE_MEMORY_REPORT = 16,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -481,6 +485,82 @@ typedef struct SurfelImport {
    */
   const struct SurfelMemory *memory;
 } SurfelImport;
+
+/**
+ * A heap of a device's memory.
+ */
+typedef struct SurfelMemoryHeap {
+  /**
+   * How large it is, in bytes.
+   */
+  uint64_t size;
+  /**
+   * How many bytes of it the process may have before allocations fail or are moved elsewhere, as the driver has it now; of one that does not tell it, `size`.
+   */
+  uint64_t budget;
+  /**
+   * How many bytes of it the process has now, all of its libraries together; of a driver that does not tell it, 0.
+   */
+  uint64_t usage;
+  /**
+   * It is the device's own.
+   */
+  VkBool32 isLocal;
+  /**
+   * 0.
+   */
+  uint32_t reserved;
+} SurfelMemoryHeap;
+
+/**
+ * Device memory: what of it is ours, and what the process may have. `surfel_device_memory_report` fills it.
+ */
+typedef struct SurfelMemoryReport {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_MEMORY_REPORT`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelMemoryReport)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  void *pNext;
+  /**
+   * Bytes of our buffers that only the device touches: splats and meshes, and what frames list and sum in buffers.
+   */
+  uint64_t buffers;
+  /**
+   * Bytes of images: what frames sum in images.
+   */
+  uint64_t images;
+  /**
+   * Bytes that the host writes: scenes on their way, updates, what a frame is told.
+   */
+  uint64_t upload;
+  /**
+   * Bytes that the device writes and the host reads.
+   */
+  uint64_t readback;
+  /**
+   * Bytes that lie idle in blocks of ours; 0 with a `SurfelMemory`.
+   */
+  uint64_t idle;
+  /**
+   * How many heaps the device has, in Vulkan's order.
+   */
+  uint32_t heapCount;
+  /**
+   * Budgets and what is used of them are the driver's (`VK_EXT_memory_budget`, which need not be enabled); else a budget is as large as its heap.
+   */
+  VkBool32 budgetsAreTold;
+  /**
+   * The heaps.
+   */
+  struct SurfelMemoryHeap heaps[16];
+} SurfelMemoryReport;
 
 /**
  * What a scene is made for.
@@ -1241,6 +1321,11 @@ SurfelResult surfel_device_epoch_done(const struct SurfelDevice *device, uint64_
  * Tells how much device memory our objects have: bytes in use, and bytes that are taken from the device for it.
  */
 SurfelResult surfel_device_memory(const struct SurfelDevice *device, uint64_t *used, uint64_t *held);
+
+/**
+ * Tells what device memory is for, and how much the process may have. It takes nothing from the heap.
+ */
+SurfelResult surfel_device_memory_report(const struct SurfelDevice *device, struct SurfelMemoryReport *report);
 
 /**
  * Lets go of a device; NULL is nothing. What was made from it may be destroyed later, and all must be before the host's own device is.

@@ -42,6 +42,8 @@ pub enum SurfelStructureType {
     Mesh = 14,
     /// `SurfelRoom`.
     Room = 15,
+    /// `SurfelMemoryReport`.
+    MemoryReport = 16,
 }
 
 /// No struct is larger in any version: a size beyond is none that a header gave it.

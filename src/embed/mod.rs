@@ -35,8 +35,8 @@ pub use crate::{
     renderer::Renderer,
     scene::{HostCamera, Placement},
     vk::{
-        Device, Features, FeaturesApart, HostAllocation, HostMemory, Import, MemoryRequest, MemoryUse,
-        Requirements, requirements,
+        Device, Features, FeaturesApart, HostAllocation, HostMemory, Import, MemoryHeap, MemoryHeaps,
+        MemoryInUse, MemoryRequest, MemoryUse, Requirements, requirements,
     },
 };
 pub use frame::{DepthImage, ViewFrame};

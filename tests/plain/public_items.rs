@@ -27,6 +27,7 @@ const INTERFACE: &[(&[&str], &[&str])] = &[
     (&["graph/resource.rs"], &["ImageState"]),
     (&["graph/execute/profiler.rs"], &["Profile", "FrameProfile", "PassProfile", "PassCounts"]),
     (&["vk/"], &["Limits", "Device", "Features", "FeaturesApart", "Import", "Requirements", "requirements"]),
+    (&["vk/budget.rs"], &["MemoryHeap", "MemoryHeaps", "MemoryInUse"]),
     (&["vk/memory.rs", "vk/host_memory.rs"], &["HostMemory", "MemoryRequest", "MemoryUse", "HostAllocation"]),
     (
         &["scene/"],
