@@ -69,6 +69,26 @@
 #define SURFEL_MAX_FORMATS 16
 
 /**
+ * Nothing, or what `timed` says: in `measures` of `SurfelFrame`, as those that follow.
+ */
+#define SURFEL_MEASURE_NOTHING 0
+
+/**
+ * The frame's own time, from before its first pass to behind its last.
+ */
+#define SURFEL_MEASURE_FRAME 1
+
+/**
+ * The time of each pass, and from the first to the last with what it costs to time them.
+ */
+#define SURFEL_MEASURE_TIMES 2
+
+/**
+ * Vertices and fragments, or invocations of compute, of each pass, where `pipelineStatisticsQuery` is enabled.
+ */
+#define SURFEL_MEASURE_COUNTS 3
+
+/**
  * The number of no object.
  */
 #define SURFEL_NO_ID 4294967295
@@ -1173,6 +1193,14 @@ typedef struct SurfelFrame {
    * refused, `SURFEL_RESULT_NOT_READY`. A host that asks again and again goes on between.
    */
   uint64_t mostPipelines;
+  /**
+   * What is measured, for `surfel_view_measured`: `SURFEL_MEASURE_*`; 0: the time of each pass where `timed` says so, else nothing.
+   */
+  uint32_t measures;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reservedToo;
 } SurfelFrame;
 
 /**
@@ -1264,6 +1292,37 @@ typedef struct SurfelHostImage {
  * Is told of a pass: its name, valid during the call, and its seconds, below 0 where they were not measured. Must return.
  */
 typedef void (*SurfelPassTime)(void *user, const char *name, double secs);
+
+/**
+ * What a pass cost.
+ */
+typedef struct SurfelPassFigures {
+  /**
+   * Its name, as UTF-8, valid during the call.
+   */
+  const char *name;
+  /**
+   * Its seconds; below 0 where they were not measured.
+   */
+  double secs;
+  /**
+   * Invocations of its vertex stage; `UINT64_MAX` where they were not counted, or it doesn't draw.
+   */
+  uint64_t vertices;
+  /**
+   * Those of its fragment stage alike.
+   */
+  uint64_t fragments;
+  /**
+   * Those of its compute stage; `UINT64_MAX` where they were not counted, or it doesn't dispatch.
+   */
+  uint64_t invocations;
+} SurfelPassFigures;
+
+/**
+ * Is told of a pass, by figures that are valid during the call. Must return.
+ */
+typedef void (*SurfelPassMeasured)(void *user, const struct SurfelPassFigures *figures);
 
 #ifdef __cplusplus
 extern "C" {
@@ -1527,6 +1586,15 @@ SurfelResult surfel_view_record(struct SurfelView *view,
  * Tells how long each pass took of the frame that was prepared last, in their order, once it has finished; nothing if it was not `timed`.
  */
 SurfelResult surfel_view_times(const struct SurfelView *view, SurfelPassTime each, void *user);
+
+/**
+ * Tells what each pass cost of the frame that was prepared last, in their order, once it has finished, as `measures` in `SurfelFrame` asked for; and the frame's own seconds in `spanSecs`, which may be NULL, below 0 where
+ * they were not measured. Takes nothing from the heap.
+ */
+SurfelResult surfel_view_measured(const struct SurfelView *view,
+                                  SurfelPassMeasured each,
+                                  void *user,
+                                  double *spanSecs);
 
 /**
  * Tells how many bytes of device memory a view holds.

@@ -28,7 +28,7 @@ mod view;
 pub use crate::{
     graph::{
         ImageState,
-        execute::{FrameProfile, PassCounts, PassProfile, Profile},
+        execute::{FrameProfile, PassCounts, PassFigures, PassProfile, Profile},
     },
     passes::MissingPipelines,
     prepare::{DynamicBuffers, DynamicSplats, NO_TINT, Placed, PreparedScene, dynamic},

@@ -25,7 +25,10 @@ const INTERFACE: &[(&[&str], &[&str])] = &[
     (&["prepare/"], &["Placed", "NO_TINT", "PreparedScene", "DynamicSplats", "DynamicBuffers"]),
     (&["prepare/dynamic.rs"], &["disk", "color"]),
     (&["graph/resource.rs"], &["ImageState"]),
-    (&["graph/execute/profiler.rs"], &["Profile", "FrameProfile", "PassProfile", "PassCounts"]),
+    (
+        &["graph/execute/profiler.rs"],
+        &["Profile", "FrameProfile", "PassProfile", "PassFigures", "PassCounts"],
+    ),
     (&["vk/"], &["Limits", "Device", "Features", "FeaturesApart", "Import", "Requirements", "requirements"]),
     (&["vk/budget.rs"], &["MemoryHeap", "MemoryHeaps", "MemoryInUse"]),
     (&["vk/memory.rs", "vk/host_memory.rs"], &["HostMemory", "MemoryRequest", "MemoryUse", "HostAllocation"]),
