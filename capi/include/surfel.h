@@ -94,6 +94,26 @@
 #define SURFEL_NO_ID 4294967295
 
 /**
+ * Nothing is seen there.
+ */
+#define SURFEL_PICKED_NOTHING 0
+
+/**
+ * A splat.
+ */
+#define SURFEL_PICKED_SPLAT 1
+
+/**
+ * A splat that stands for others in levels of detail.
+ */
+#define SURFEL_PICKED_NODE 2
+
+/**
+ * A triangle.
+ */
+#define SURFEL_PICKED_TRIANGLE 3
+
+/**
  * What a call answers. `surfel_last_error` has the sentence.
  */
 enum SurfelResult
@@ -242,6 +262,10 @@ enum SurfelStructureType
    * `SurfelMemoryReport`.
    */
   SURFEL_STRUCTURE_TYPE_MEMORY_REPORT = 16,
+  /**
+   * `SurfelPicked`.
+   */
+  SURFEL_STRUCTURE_TYPE_PICKED = 17,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -255,6 +279,11 @@ typedef uint32_t SurfelStructureType;
  * A host's device. May be used by several threads at once.
  */
 typedef struct SurfelDevice SurfelDevice;
+
+/**
+ * A pixel that is looked at.
+ */
+typedef struct SurfelPick SurfelPick;
 
 /**
  * A scene on the device: uploaded, or written there by the host. Frames of several threads may show it at once.
@@ -615,6 +644,14 @@ typedef struct SurfelSceneInfo {
    * 0; else it is refused.
    */
   uint32_t reserved;
+  /**
+   * `surfel_pick_read` is to tell numbers of splats and triangles, for which the host keeps 4 bytes of each.
+   */
+  VkBool32 numbered;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reservedToo;
 } SurfelSceneInfo;
 
 /**
@@ -1324,6 +1361,52 @@ typedef struct SurfelPassFigures {
  */
 typedef void (*SurfelPassMeasured)(void *user, const struct SurfelPassFigures *figures);
 
+/**
+ * What is seen in a pixel of one scene. `surfel_pick_read` fills it.
+ */
+typedef struct SurfelPicked {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_PICKED`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelPicked)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  void *pNext;
+  /**
+   * `SURFEL_PICKED_*`; of nothing, all that follows is 0.
+   */
+  uint32_t kind;
+  /**
+   * The number of the splat or triangle in its object; `UINT32_MAX` where the scene was not made `numbered`, or nobody knows it.
+   */
+  uint32_t number;
+  /**
+   * The number of its object.
+   */
+  uint64_t object;
+  /**
+   * Where the ray through the pixel's center meets it, in the world.
+   */
+  double position[3];
+  /**
+   * Its unit normal there, toward the eye.
+   */
+  double normal[3];
+  /**
+   * How far that is from the eye.
+   */
+  double distance;
+  /**
+   * Its depth along the view's axis.
+   */
+  double depth;
+} SurfelPicked;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1624,6 +1707,32 @@ SurfelResult surfel_compile_ahead(const struct SurfelRenderer *renderer,
                                   const struct SurfelRendering *rendering,
                                   const struct SurfelFrame *frame,
                                   uint64_t *made);
+
+/**
+ * Records a look at one pixel of a frame, from its top left corner, of its scene with this number: of several scenes a host looks at each, and takes the nearest. `commands` must be recording, outside of rendering, and be
+ * submitted to the device's queue. Once they have run, `surfel_pick_read` tells what is there. What the host draws, and what hides, is not looked at. Clip planes of the settings are for scenes that stand where they are (`worldFromScene` is NULL, or without motion).
+ * Takes memory of the device, for the pick alone.
+ */
+SurfelResult surfel_pick(const struct SurfelDevice *device,
+                         const struct SurfelRenderer *renderer,
+                         VkCommandBuffer commands,
+                         const struct SurfelFrame *frame,
+                         uint32_t scene,
+                         uint32_t x,
+                         uint32_t y,
+                         struct SurfelPick **pick);
+
+/**
+ * Tells what a look at a pixel has found, once its commands have run. `scene` is the one that was looked at, which must not have changed since.
+ */
+SurfelResult surfel_pick_read(const struct SurfelPick *pick,
+                              const struct SurfelPreparedScene *scene,
+                              struct SurfelPicked *picked);
+
+/**
+ * Destroys what a look at a pixel has; NULL is nothing. It is freed when the epoch that is recorded now is done.
+ */
+void surfel_pick_destroy(struct SurfelPick *pick);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -31,6 +31,7 @@ mod frame;
 mod view;
 
 mod ahead;
+mod pick;
 
 /// The version of this header: as `VK_MAKE_API_VERSION(0, major, minor, patch)`.
 pub const SURFEL_VERSION: u32 = 1 << 12;

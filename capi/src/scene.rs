@@ -41,6 +41,10 @@ pub struct SurfelSceneInfo {
     pub updatable: vk::Bool32,
     /// 0; else it is refused.
     pub reserved: u32,
+    /// `surfel_pick_read` is to tell numbers of splats and triangles, for which the host keeps 4 bytes of each.
+    pub numbered: vk::Bool32,
+    /// 0; else it is refused.
+    pub reserved_too: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -48,7 +52,7 @@ unsafe impl Struct for SurfelSceneInfo {
     const TYPE: SurfelStructureType = SurfelStructureType::SceneInfo;
 
     fn reserved(&self) -> u32 {
-        self.reserved
+        self.reserved | self.reserved_too
     }
 }
 
@@ -64,7 +68,8 @@ pub unsafe extern "C" fn surfel_scene_create(
         let mut scene = Scene::default();
         if !info.is_null() {
             // SAFETY: as above.
-            let SurfelSceneInfo { levels, budget, updatable, .. } = unsafe { read(info, "info") }?;
+            let SurfelSceneInfo { levels, budget, updatable, numbered, .. } = unsafe { read(info, "info") }?;
+            scene.numbered = numbered != vk::FALSE;
             (scene.levels, scene.budget) = (levels != vk::FALSE, budget != vk::FALSE);
             scene.updatable = updatable != vk::FALSE;
         }

@@ -44,6 +44,8 @@ pub enum SurfelStructureType {
     Room = 15,
     /// `SurfelMemoryReport`.
     MemoryReport = 16,
+    /// `SurfelPicked`.
+    Picked = 17,
 }
 
 /// No struct is larger in any version: a size beyond is none that a header gave it.

@@ -84,7 +84,7 @@ void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     engine_begin(engine);
     IS(OPTION, surfel_upload(renderer, engine->commands, scene, &prepared), "room of object 0: expected a scene with Scene::updatable");
     surfel_scene_destroy(scene);
-    made.updatable = VK_TRUE;
+    made.updatable = made.numbered = VK_TRUE;
     OK(surfel_scene_create(&made, &scene));
     room.sType = SURFEL_STRUCTURE_TYPE_SPLATS;
     IS(UNKNOWN_STRUCT, surfel_scene_add_splats(scene, &splats), "room: sType 5: expected 15 (Room)");
@@ -115,6 +115,41 @@ void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     OK(surfel_append(renderer, engine->commands, prepared, 0, &splats, &first));
     TRUE(first == 0);
     const int whole = seen(engine, device, view, &frame);
+    /* What is seen in the middle, and beside the ball: of the scene as it stands, moved and twice as large, and in a left-handed world. */
+    const double moved[] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, -5e5, 0, 0, 1};
+    const SurfelFrame right_handed = frame;
+    for (int round = 0; round < 3; round++) {
+        SurfelPicked there = {.sType = SURFEL_STRUCTURE_TYPE_PICKED, .size = sizeof there}, beside = there;
+        SurfelPick *picks[2];
+        const uint32_t at[] = {WIDTH / 2, 3};
+        frame = right_handed;
+        if (round == 1) frame.worldFromScene = moved;
+        if (round == 2) frame.leftHanded = VK_TRUE, frame.viewFromWorld[14] = 4, frame.clipFromView[11] = 1;
+        engine_begin(engine);
+        for (int i = 0; i < 2; i++) OK(surfel_pick(device, renderer, engine->commands, &frame, 0, at[i], HEIGHT / 2, picks + i));
+        engine_begin_rendering(engine, 1);
+        engine_end_rendering(engine);
+        engine_submit(engine);
+        uint64_t epoch;
+        OK(surfel_device_end_epoch(device, &epoch));
+        OK(surfel_device_epoch_done(device, epoch));
+        OK(surfel_pick_read(picks[0], prepared, &there));
+        OK(surfel_pick_read(picks[1], prepared, &beside));
+        for (int i = 0; i < 2; i++) surfel_pick_destroy(picks[i]);
+        const double radius = round == 1 ? 2 : 1, toward_eye = round == 2 ? -1 : 1;
+        TRUE(there.kind == SURFEL_PICKED_SPLAT && there.object == 0 && there.number < COUNT);
+        TRUE(fabs(there.position[0] - 5e5) < 0.05 && fabs(there.position[1]) < 0.05 && fabs(there.position[2] - toward_eye * radius) < 0.05);
+        TRUE(toward_eye * there.normal[2] > 0.98 && fabs(there.distance - (4 - radius)) < 0.05 && fabs(there.depth - there.distance) < 0.01);
+        TRUE(fabs(there.position[0] - 5e5 - radius * (centers[3 * there.number] - 5e5)) < 0.2 && fabs(centers[3 * there.number + 2] - 1) < 0.1);
+        TRUE(beside.kind == SURFEL_PICKED_NOTHING && beside.number == 0 && beside.distance == 0);
+    }
+    frame = right_handed;
+    SurfelPick *none;
+    engine_begin(engine);
+    IS(INVALID_ARGUMENT, surfel_pick(device, renderer, engine->commands, &frame, 1, 0, 0, &none), "scene 1: the frame has 1");
+    IS(OPTION, surfel_pick(device, renderer, engine->commands, &frame, 0, WIDTH, 0, &none), "expected a pixel of");
+    IS(INVALID_ARGUMENT, surfel_pick_read(NULL, prepared, NULL), "pick is NULL");
+    TRUE(none == NULL);
     engine_begin(engine);
     splats.count = 8;
     IS(OPTION, surfel_append(renderer, engine->commands, prepared, 0, &splats, &first), "8 splats behind number 2000 of object 0: it has room up to 2007");
