@@ -266,6 +266,10 @@ enum SurfelStructureType
    * `SurfelPicked`.
    */
   SURFEL_STRUCTURE_TYPE_PICKED = 17,
+  /**
+   * `SurfelLevels`.
+   */
+  SURFEL_STRUCTURE_TYPE_LEVELS = 18,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -808,6 +812,67 @@ typedef struct SurfelSplats {
    */
   const struct SurfelRoom *room;
 } SurfelSplats;
+
+/**
+ * The ball by which a node is chosen, from the levels' `origin`.
+ */
+typedef struct SurfelErrorBall {
+  /**
+   * Its middle.
+   */
+  float center[3];
+  /**
+   * Its radius: around the node's ellipse, all splats below it, and the balls of its children.
+   */
+  float radius;
+  /**
+   * How far what is below spreads: the root of the mean squared distance of the splats' centers from the node's, by area. Above 0, and no less than a child's.
+   */
+  float spread;
+} SurfelErrorBall;
+
+/**
+ * An object of splats with levels of detail, by arrays: nodes, each a splat that stands for all below it. For a size of the setting `lod` a node is drawn whose spread is seen at most so large, where its parent's
+ * is seen larger, or it has none; and a splat of the object where its parent's is seen larger, or it has none.
+ */
+typedef struct SurfelLevels {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_LEVELS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelLevels)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * The object's own splats, neighbors in space one after the other; without `epsilon`, `room` and clip curves.
+   */
+  const struct SurfelSplats *splats;
+  /**
+   * The number of the node above each; `UINT32_MAX`: none is.
+   */
+  const uint32_t *splatParents;
+  /**
+   * The nodes, ellipses, each behind its parent. Their name and `closed` mean nothing.
+   */
+  const struct SurfelSplats *nodes;
+  /**
+   * The number of the node above each; `UINT32_MAX`: none is.
+   */
+  const uint32_t *nodeParents;
+  /**
+   * Of each node.
+   */
+  const struct SurfelErrorBall *balls;
+  /**
+   * From where their middles are counted, in the scene's own space.
+   */
+  double origin[3];
+} SurfelLevels;
 
 /**
  * An object of triangles, by arrays, drawn beside splats.
@@ -1519,6 +1584,12 @@ SurfelResult surfel_scene_ball(const struct SurfelScene *scene, double *center, 
  * Destroys a scene in the host's memory; NULL is nothing. What was made of it on a device stays.
  */
 void surfel_scene_destroy(struct SurfelScene *scene);
+
+/**
+ * Adds an object of splats with its levels of detail; its arrays are copied. For numbers of objects it is behind all objects of splats alone, and before those of triangles.
+ */
+SurfelResult surfel_scene_add_levels(struct SurfelScene *scene,
+                                     const struct SurfelLevels *levels);
 
 /**
  * Adds an object of triangles; its arrays are copied. For `surfel_update` it is behind all objects of splats.

@@ -19,6 +19,7 @@ mod device;
 mod scene;
 mod splats;
 
+mod levels;
 mod mesh;
 
 mod dynamic;

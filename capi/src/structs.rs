@@ -46,6 +46,8 @@ pub enum SurfelStructureType {
     MemoryReport = 16,
     /// `SurfelPicked`.
     Picked = 17,
+    /// `SurfelLevels`.
+    Levels = 18,
 }
 
 /// No struct is larger in any version: a size beyond is none that a header gave it.

@@ -190,6 +190,7 @@ int main(int argc, char **argv) {
         steady(engine, device, renderer);
         objects(engine, device, renderer);
         rooms(engine, device, renderer);
+        levels(engine, device, renderer);
         frames(engine, device, renderer, foreign, i == 0);
     }
     surfel_device_destroy(other);
