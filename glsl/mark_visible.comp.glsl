@@ -45,6 +45,9 @@ bool faces_away(vec3 n, vec3 ray)
 bool may_be_seen(uint index)
 {
     Stored stored = load_stored(index);
+    if (SPARSE && stored.position_radius.w < 0.0) {
+        return false;
+    }
     FromEye d = from_eye(stored.position_radius.xyz, stored.position_low);
     vec3 p = center_of(stored.position_radius.xyz, d);
     float radius = frame.view_from_local_scale * stored.position_radius.w;
@@ -70,7 +73,8 @@ void main()
         bits = bits_of_level(first / WORD);
     }
     // All invocations of a vector are in one block, so that it ends here where there is nothing to find.
-    for (uint index = is_known(block, ALL_VISIBLE) ? end : first; index < end; index++) {
+    // Lists have room for those that are there, and no more.
+    for (uint index = !SPARSE && is_known(block, ALL_VISIBLE) ? end : first; index < end; index++) {
         uint bit = 1u << (index - first);
         if ((bits & bit) != 0 && !may_be_seen(index)) {
             bits &= ~bit;

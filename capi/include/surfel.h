@@ -69,9 +69,49 @@
 #define SURFEL_MAX_FORMATS 16
 
 /**
+ * Nothing, or what `timed` says: in `measures` of `SurfelFrame`, as those that follow.
+ */
+#define SURFEL_MEASURE_NOTHING 0
+
+/**
+ * The frame's own time, from before its first pass to behind its last.
+ */
+#define SURFEL_MEASURE_FRAME 1
+
+/**
+ * The time of each pass, and from the first to the last with what it costs to time them.
+ */
+#define SURFEL_MEASURE_TIMES 2
+
+/**
+ * Vertices and fragments, or invocations of compute, of each pass, where `pipelineStatisticsQuery` is enabled.
+ */
+#define SURFEL_MEASURE_COUNTS 3
+
+/**
  * The number of no object.
  */
 #define SURFEL_NO_ID 4294967295
+
+/**
+ * Nothing is seen there.
+ */
+#define SURFEL_PICKED_NOTHING 0
+
+/**
+ * A splat.
+ */
+#define SURFEL_PICKED_SPLAT 1
+
+/**
+ * A splat that stands for others in levels of detail.
+ */
+#define SURFEL_PICKED_NODE 2
+
+/**
+ * A triangle.
+ */
+#define SURFEL_PICKED_TRIANGLE 3
 
 /**
  * What a call answers. `surfel_last_error` has the sentence.
@@ -214,6 +254,22 @@ enum SurfelStructureType
    * `SurfelMesh`.
    */
   SURFEL_STRUCTURE_TYPE_MESH = 14,
+  /**
+   * `SurfelRoom`.
+   */
+  SURFEL_STRUCTURE_TYPE_ROOM = 15,
+  /**
+   * `SurfelMemoryReport`.
+   */
+  SURFEL_STRUCTURE_TYPE_MEMORY_REPORT = 16,
+  /**
+   * `SurfelPicked`.
+   */
+  SURFEL_STRUCTURE_TYPE_PICKED = 17,
+  /**
+   * `SurfelLevels`.
+   */
+  SURFEL_STRUCTURE_TYPE_LEVELS = 18,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -227,6 +283,11 @@ typedef uint32_t SurfelStructureType;
  * A host's device. May be used by several threads at once.
  */
 typedef struct SurfelDevice SurfelDevice;
+
+/**
+ * A pixel that is looked at.
+ */
+typedef struct SurfelPick SurfelPick;
 
 /**
  * A scene on the device: uploaded, or written there by the host. Frames of several threads may show it at once.
@@ -479,6 +540,82 @@ typedef struct SurfelImport {
 } SurfelImport;
 
 /**
+ * A heap of a device's memory.
+ */
+typedef struct SurfelMemoryHeap {
+  /**
+   * How large it is, in bytes.
+   */
+  uint64_t size;
+  /**
+   * How many bytes of it the process may have before allocations fail or are moved elsewhere, as the driver has it now; of one that does not tell it, `size`.
+   */
+  uint64_t budget;
+  /**
+   * How many bytes of it the process has now, all of its libraries together; of a driver that does not tell it, 0.
+   */
+  uint64_t usage;
+  /**
+   * It is the device's own.
+   */
+  VkBool32 isLocal;
+  /**
+   * 0.
+   */
+  uint32_t reserved;
+} SurfelMemoryHeap;
+
+/**
+ * Device memory: what of it is ours, and what the process may have. `surfel_device_memory_report` fills it.
+ */
+typedef struct SurfelMemoryReport {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_MEMORY_REPORT`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelMemoryReport)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  void *pNext;
+  /**
+   * Bytes of our buffers that only the device touches: splats and meshes, and what frames list and sum in buffers.
+   */
+  uint64_t buffers;
+  /**
+   * Bytes of images: what frames sum in images.
+   */
+  uint64_t images;
+  /**
+   * Bytes that the host writes: scenes on their way, updates, what a frame is told.
+   */
+  uint64_t upload;
+  /**
+   * Bytes that the device writes and the host reads.
+   */
+  uint64_t readback;
+  /**
+   * Bytes that lie idle in blocks of ours; 0 with a `SurfelMemory`.
+   */
+  uint64_t idle;
+  /**
+   * How many heaps the device has, in Vulkan's order.
+   */
+  uint32_t heapCount;
+  /**
+   * Budgets and what is used of them are the driver's (`VK_EXT_memory_budget`, which need not be enabled); else a budget is as large as its heap.
+   */
+  VkBool32 budgetsAreTold;
+  /**
+   * The heaps.
+   */
+  struct SurfelMemoryHeap heaps[16];
+} SurfelMemoryReport;
+
+/**
  * What a scene is made for.
  */
 typedef struct SurfelSceneInfo {
@@ -511,6 +648,14 @@ typedef struct SurfelSceneInfo {
    * 0; else it is refused.
    */
   uint32_t reserved;
+  /**
+   * `surfel_pick_read` is to tell numbers of splats and triangles, for which the host keeps 4 bytes of each.
+   */
+  VkBool32 numbered;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reservedToo;
 } SurfelSceneInfo;
 
 /**
@@ -553,6 +698,42 @@ typedef struct SurfelClip {
    */
   struct SurfelClipCurve curves[2];
 } SurfelClip;
+
+/**
+ * Numbers of an object of splats behind those that it is uploaded with, which have nothing yet: `surfel_append` and `surfel_update` put splats there. Of an object that has it,
+ * `surfel_remove` takes splats away, its own ones, too. For scenes that are `updatable`.
+ */
+typedef struct SurfelRoom {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_ROOM`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelRoom)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * How many numbers, of 40 bytes on the device each, 56 of ellipses; with none, splats are only taken away, and put back.
+   */
+  uint32_t splats;
+  /**
+   * `around` is a place in the scene's own space near which they will be; else they will be near the object, or, of none, near the origin. What is farther from it than 2000 times its own
+   * smaller half axis is placed less exactly.
+   */
+  VkBool32 hasAround;
+  /**
+   * That place.
+   */
+  double around[3];
+  /**
+   * How many disks will lie over a place of the surface, where they are fewest; 0: as many as in the object, and of none 2.
+   */
+  double overlap;
+} SurfelRoom;
 
 /**
  * An object of splats, by arrays. Disks have `normals` and `radii`, ellipses have `tangentsS` and `tangentsT`; the other two are NULL.
@@ -626,7 +807,72 @@ typedef struct SurfelSplats {
    * As `epsilon`, in mean radii of the object; one of both is 0.
    */
   double epsilonInRadii;
+  /**
+   * Room for splats that come later; NULL: none comes, and none goes. Not for those that `surfel_update` and `surfel_append` are given.
+   */
+  const struct SurfelRoom *room;
 } SurfelSplats;
+
+/**
+ * The ball by which a node is chosen, from the levels' `origin`.
+ */
+typedef struct SurfelErrorBall {
+  /**
+   * Its middle.
+   */
+  float center[3];
+  /**
+   * Its radius: around the node's ellipse, all splats below it, and the balls of its children.
+   */
+  float radius;
+  /**
+   * How far what is below spreads: the root of the mean squared distance of the splats' centers from the node's, by area. Above 0, and no less than a child's.
+   */
+  float spread;
+} SurfelErrorBall;
+
+/**
+ * An object of splats with levels of detail, by arrays: nodes, each a splat that stands for all below it. For a size of the setting `lod` a node is drawn whose spread is seen at most so large, where its parent's
+ * is seen larger, or it has none; and a splat of the object where its parent's is seen larger, or it has none.
+ */
+typedef struct SurfelLevels {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_LEVELS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelLevels)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * The object's own splats, neighbors in space one after the other; without `epsilon`, `room` and clip curves.
+   */
+  const struct SurfelSplats *splats;
+  /**
+   * The number of the node above each; `UINT32_MAX`: none is.
+   */
+  const uint32_t *splatParents;
+  /**
+   * The nodes, ellipses, each behind its parent. Their name and `closed` mean nothing.
+   */
+  const struct SurfelSplats *nodes;
+  /**
+   * The number of the node above each; `UINT32_MAX`: none is.
+   */
+  const uint32_t *nodeParents;
+  /**
+   * Of each node.
+   */
+  const struct SurfelErrorBall *balls;
+  /**
+   * From where their middles are counted, in the scene's own space.
+   */
+  double origin[3];
+} SurfelLevels;
 
 /**
  * An object of triangles, by arrays, drawn beside splats.
@@ -1049,6 +1295,14 @@ typedef struct SurfelFrame {
    * refused, `SURFEL_RESULT_NOT_READY`. A host that asks again and again goes on between.
    */
   uint64_t mostPipelines;
+  /**
+   * What is measured, for `surfel_view_measured`: `SURFEL_MEASURE_*`; 0: the time of each pass where `timed` says so, else nothing.
+   */
+  uint32_t measures;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reservedToo;
 } SurfelFrame;
 
 /**
@@ -1141,6 +1395,83 @@ typedef struct SurfelHostImage {
  */
 typedef void (*SurfelPassTime)(void *user, const char *name, double secs);
 
+/**
+ * What a pass cost.
+ */
+typedef struct SurfelPassFigures {
+  /**
+   * Its name, as UTF-8, valid during the call.
+   */
+  const char *name;
+  /**
+   * Its seconds; below 0 where they were not measured.
+   */
+  double secs;
+  /**
+   * Invocations of its vertex stage; `UINT64_MAX` where they were not counted, or it doesn't draw.
+   */
+  uint64_t vertices;
+  /**
+   * Those of its fragment stage alike.
+   */
+  uint64_t fragments;
+  /**
+   * Those of its compute stage; `UINT64_MAX` where they were not counted, or it doesn't dispatch.
+   */
+  uint64_t invocations;
+} SurfelPassFigures;
+
+/**
+ * Is told of a pass, by figures that are valid during the call. Must return.
+ */
+typedef void (*SurfelPassMeasured)(void *user, const struct SurfelPassFigures *figures);
+
+/**
+ * What is seen in a pixel of one scene. `surfel_pick_read` fills it.
+ */
+typedef struct SurfelPicked {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_PICKED`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelPicked)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  void *pNext;
+  /**
+   * `SURFEL_PICKED_*`; of nothing, all that follows is 0.
+   */
+  uint32_t kind;
+  /**
+   * The number of the splat or triangle in its object; `UINT32_MAX` where the scene was not made `numbered`, or nobody knows it.
+   */
+  uint32_t number;
+  /**
+   * The number of its object.
+   */
+  uint64_t object;
+  /**
+   * Where the ray through the pixel's center meets it, in the world.
+   */
+  double position[3];
+  /**
+   * Its unit normal there, toward the eye.
+   */
+  double normal[3];
+  /**
+   * How far that is from the eye.
+   */
+  double distance;
+  /**
+   * Its depth along the view's axis.
+   */
+  double depth;
+} SurfelPicked;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1199,6 +1530,11 @@ SurfelResult surfel_device_epoch_done(const struct SurfelDevice *device, uint64_
 SurfelResult surfel_device_memory(const struct SurfelDevice *device, uint64_t *used, uint64_t *held);
 
 /**
+ * Tells what device memory is for, and how much the process may have. It takes nothing from the heap.
+ */
+SurfelResult surfel_device_memory_report(const struct SurfelDevice *device, struct SurfelMemoryReport *report);
+
+/**
  * Lets go of a device; NULL is nothing. What was made from it may be destroyed later, and all must be before the host's own device is.
  */
 void surfel_device_destroy(struct SurfelDevice *device);
@@ -1248,6 +1584,12 @@ SurfelResult surfel_scene_ball(const struct SurfelScene *scene, double *center, 
  * Destroys a scene in the host's memory; NULL is nothing. What was made of it on a device stays.
  */
 void surfel_scene_destroy(struct SurfelScene *scene);
+
+/**
+ * Adds an object of splats with its levels of detail; its arrays are copied. For numbers of objects it is behind all objects of splats alone, and before those of triangles.
+ */
+SurfelResult surfel_scene_add_levels(struct SurfelScene *scene,
+                                     const struct SurfelLevels *levels);
 
 /**
  * Adds an object of triangles; its arrays are copied. For `surfel_update` it is behind all objects of splats.
@@ -1322,6 +1664,32 @@ SurfelResult surfel_prepared_scene_info(const struct SurfelPreparedScene *scene,
 void surfel_prepared_scene_destroy(struct SurfelPreparedScene *scene);
 
 /**
+ * Records that splats are added to an object which has `room`, behind the last one there; `first` is the number of the first then, the others follow. By them `surfel_update` changes
+ * and `surfel_remove` removes them: numbers of others stay. `first` may be NULL. All else is as of `surfel_update`; an object without enough room behind its last splat is refused.
+ */
+SurfelResult surfel_append(const struct SurfelRenderer *renderer,
+                           VkCommandBuffer commands,
+                           struct SurfelPreparedScene *scene,
+                           uint64_t object,
+                           const struct SurfelSplats *splats,
+                           uint32_t *first);
+
+/**
+ * Records that `count` splats from number `first` on are taken out of an object which has `room`; numbers that have none are left alone. All else is as of `surfel_update`.
+ */
+SurfelResult surfel_remove(const struct SurfelRenderer *renderer,
+                           VkCommandBuffer commands,
+                           struct SurfelPreparedScene *scene,
+                           uint64_t object,
+                           uint32_t first,
+                           uint32_t count);
+
+/**
+ * Tells how many splats `surfel_append` has room for yet, behind the last one that an object has there; 0 of one without room.
+ */
+SurfelResult surfel_room_of(const struct SurfelPreparedScene *scene, uint64_t object, uint32_t *splats);
+
+/**
  * Makes settings: each has its default.
  */
 SurfelResult surfel_settings_create(struct SurfelSettings **settings);
@@ -1374,6 +1742,15 @@ SurfelResult surfel_view_record(struct SurfelView *view,
 SurfelResult surfel_view_times(const struct SurfelView *view, SurfelPassTime each, void *user);
 
 /**
+ * Tells what each pass cost of the frame that was prepared last, in their order, once it has finished, as `measures` in `SurfelFrame` asked for; and the frame's own seconds in `spanSecs`, which may be NULL, below 0 where
+ * they were not measured. Takes nothing from the heap.
+ */
+SurfelResult surfel_view_measured(const struct SurfelView *view,
+                                  SurfelPassMeasured each,
+                                  void *user,
+                                  double *spanSecs);
+
+/**
  * Tells how many bytes of device memory a view holds.
  */
 SurfelResult surfel_view_bytes(const struct SurfelView *view, uint64_t *bytes);
@@ -1401,6 +1778,32 @@ SurfelResult surfel_compile_ahead(const struct SurfelRenderer *renderer,
                                   const struct SurfelRendering *rendering,
                                   const struct SurfelFrame *frame,
                                   uint64_t *made);
+
+/**
+ * Records a look at one pixel of a frame, from its top left corner, of its scene with this number: of several scenes a host looks at each, and takes the nearest. `commands` must be recording, outside of rendering, and be
+ * submitted to the device's queue. Once they have run, `surfel_pick_read` tells what is there. What the host draws, and what hides, is not looked at. Clip planes of the settings are for scenes that stand where they are (`worldFromScene` is NULL, or without motion).
+ * Takes memory of the device, for the pick alone.
+ */
+SurfelResult surfel_pick(const struct SurfelDevice *device,
+                         const struct SurfelRenderer *renderer,
+                         VkCommandBuffer commands,
+                         const struct SurfelFrame *frame,
+                         uint32_t scene,
+                         uint32_t x,
+                         uint32_t y,
+                         struct SurfelPick **pick);
+
+/**
+ * Tells what a look at a pixel has found, once its commands have run. `scene` is the one that was looked at, which must not have changed since.
+ */
+SurfelResult surfel_pick_read(const struct SurfelPick *pick,
+                              const struct SurfelPreparedScene *scene,
+                              struct SurfelPicked *picked);
+
+/**
+ * Destroys what a look at a pixel has; NULL is nothing. It is freed when the epoch that is recorded now is done.
+ */
+void surfel_pick_destroy(struct SurfelPick *pick);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -12,7 +12,7 @@ use crate::{
     memory::{SurfelMemory, memory_of},
     requirements::{PFN_vkGetInstanceProcAddr, check_features, features_of, load_device, load_instance},
     result::{SurfelResult, guard},
-    structs::{Struct, SurfelStructureType, read},
+    structs::{Struct, SurfelStructureType, read, write},
 };
 
 /// A host's device. May be used by several threads at once.
@@ -125,6 +125,88 @@ pub unsafe extern "C" fn surfel_device_memory(
         used.write(device.0.memory_in_use().0);
         held.write(device.0.memory_held());
         Ok(())
+    })
+}
+
+/// A heap of a device's memory.
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct SurfelMemoryHeap {
+    /// How large it is, in bytes.
+    pub size: u64,
+    /// How many bytes of it the process may have before allocations fail or are moved elsewhere, as the driver has it now; of one that does not tell it, `size`.
+    pub budget: u64,
+    /// How many bytes of it the process has now, all of its libraries together; of a driver that does not tell it, 0.
+    pub usage: u64,
+    /// It is the device's own.
+    pub is_local: vk::Bool32,
+    /// 0.
+    pub reserved: u32,
+}
+
+/// Device memory: what of it is ours, and what the process may have. `surfel_device_memory_report` fills it.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelMemoryReport {
+    /// `SURFEL_STRUCTURE_TYPE_MEMORY_REPORT`.
+    pub s_type: u32,
+    /// `sizeof(SurfelMemoryReport)`.
+    pub size: u32,
+    /// NULL.
+    pub p_next: *mut c_void,
+    /// Bytes of our buffers that only the device touches: splats and meshes, and what frames list and sum in buffers.
+    pub buffers: u64,
+    /// Bytes of images: what frames sum in images.
+    pub images: u64,
+    /// Bytes that the host writes: scenes on their way, updates, what a frame is told.
+    pub upload: u64,
+    /// Bytes that the device writes and the host reads.
+    pub readback: u64,
+    /// Bytes that lie idle in blocks of ours; 0 with a `SurfelMemory`.
+    pub idle: u64,
+    /// How many heaps the device has, in Vulkan's order.
+    pub heap_count: u32,
+    /// Budgets and what is used of them are the driver's (`VK_EXT_memory_budget`, which need not be enabled); else a budget is as large as its heap.
+    pub budgets_are_told: vk::Bool32,
+    /// The heaps.
+    pub heaps: [SurfelMemoryHeap; 16],
+}
+
+// SAFETY: it begins so, and a test looks for padding.
+unsafe impl Struct for SurfelMemoryReport {
+    const TYPE: SurfelStructureType = SurfelStructureType::MemoryReport;
+}
+
+/// Tells what device memory is for, and how much the process may have. It takes nothing from the heap.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_device_memory_report(
+    device: *const SurfelDevice,
+    report: *mut SurfelMemoryReport,
+) -> SurfelResult {
+    guard("surfel_device_memory_report", || {
+        // SAFETY: the contract of the header, here and below.
+        let device = &unsafe { get(device, "device") }?.0;
+        let (ours, all) = (device.memory_by_use(), device.memory_heaps());
+        let mut heaps = [SurfelMemoryHeap::default(); 16];
+        for (into, heap) in heaps.iter_mut().zip(all.heaps()) {
+            let (usage, is_local) = (heap.usage.unwrap_or(0), heap.is_local.into());
+            *into = SurfelMemoryHeap { size: heap.size, budget: heap.budget, usage, is_local, reserved: 0 };
+        }
+        let value = SurfelMemoryReport {
+            s_type: 0,
+            size: 0,
+            p_next: std::ptr::null_mut(),
+            buffers: ours.buffers,
+            images: ours.images,
+            upload: ours.upload,
+            readback: ours.readback,
+            idle: ours.idle,
+            heap_count: all.heaps().len() as u32,
+            budgets_are_told: all.is_told().into(),
+            heaps,
+        };
+        // SAFETY: as above.
+        unsafe { write(report, "report", &value) }
     })
 }
 

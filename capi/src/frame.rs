@@ -80,14 +80,27 @@ pub struct SurfelFrame {
     /// Not 0: a pipeline that is missing is made as long as no more than so many were made in all (`surfel_pipelines_made`); beyond, the frame is
     /// refused, `SURFEL_RESULT_NOT_READY`. A host that asks again and again goes on between.
     pub most_pipelines: u64,
+    /// What is measured, for `surfel_view_measured`: `SURFEL_MEASURE_*`; 0: the time of each pass where `timed` says so, else nothing.
+    pub measures: u32,
+    /// 0; else it is refused.
+    pub reserved_too: u32,
 }
+
+/// Nothing, or what `timed` says: in `measures` of `SurfelFrame`, as those that follow.
+pub const SURFEL_MEASURE_NOTHING: u32 = 0;
+/// The frame's own time, from before its first pass to behind its last.
+pub const SURFEL_MEASURE_FRAME: u32 = 1;
+/// The time of each pass, and from the first to the last with what it costs to time them.
+pub const SURFEL_MEASURE_TIMES: u32 = 2;
+/// Vertices and fragments, or invocations of compute, of each pass, where `pipelineStatisticsQuery` is enabled.
+pub const SURFEL_MEASURE_COUNTS: u32 = 3;
 
 // SAFETY: it begins so, and a test looks for padding.
 unsafe impl Struct for SurfelFrame {
     const TYPE: SurfelStructureType = SurfelStructureType::Frame;
 
     fn reserved(&self) -> u32 {
-        self.reserved
+        self.reserved | self.reserved_too
     }
 }
 
@@ -189,6 +202,13 @@ unsafe fn with_scenes<'a>(
     let was = camera(matrices_before);
     let camera = camera([given.view_from_world, given.clip_from_view]);
     let moved = matrices_before.as_flattened().iter().any(|number| *number != 0.0);
+    let profile = match given.measures {
+        SURFEL_MEASURE_NOTHING => (given.timed != vk::FALSE).then_some(Profile::Times),
+        SURFEL_MEASURE_FRAME => Some(Profile::Frame),
+        SURFEL_MEASURE_TIMES => Some(Profile::Times),
+        SURFEL_MEASURE_COUNTS => Some(Profile::Counts),
+        other => return Err(Failure::invalid(format!("measures is {other}: expected a SURFEL_MEASURE_*"))),
+    };
     then(&ViewFrame {
         scenes,
         camera: &camera,
@@ -201,7 +221,7 @@ unsafe fn with_scenes<'a>(
             (false, 0) => MissingPipelines::Make,
             (false, most) => MissingPipelines::UpTo(most),
         },
-        profile: (given.timed != vk::FALSE).then_some(Profile::Times),
+        profile,
     })
 }
 

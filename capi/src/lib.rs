@@ -19,10 +19,12 @@ mod device;
 mod scene;
 mod splats;
 
+mod levels;
 mod mesh;
 
 mod dynamic;
 mod renderer;
+mod rooms;
 
 mod settings;
 
@@ -30,6 +32,7 @@ mod frame;
 mod view;
 
 mod ahead;
+mod pick;
 
 /// The version of this header: as `VK_MAKE_API_VERSION(0, major, minor, patch)`.
 pub const SURFEL_VERSION: u32 = 1 << 12;

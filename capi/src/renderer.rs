@@ -7,14 +7,16 @@ use std::{
 };
 
 use surfel::{
+    Error,
     ash::vk,
     embed::{PreparedScene, Renderer},
+    scene::Splats,
 };
 
 use crate::{
     device::SurfelDevice,
     handle::{Out, destroy, get, get_mut, text},
-    result::{SurfelResult, guard},
+    result::{Result, SurfelResult, guard},
     scene::SurfelScene,
     splats::{Arrays, SurfelSplats},
     structs::{Struct, SurfelStructureType, read, write},
@@ -124,18 +126,36 @@ pub unsafe extern "C" fn surfel_update(
             return Err(crate::handle::null("commands"));
         }
         let number = usize::try_from(object).unwrap_or(usize::MAX);
-        let kept = || renderer.arrays.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut arrays = kept().pop().unwrap_or_default();
         // SAFETY: as above.
-        let updated = unsafe { arrays.splats(&given) }.and_then(|splats| {
-            // SAFETY: as above.
-            let updated = unsafe { renderer.renderer.update(commands, &mut scene.0, number, first, &splats) };
+        unsafe {
+            renderer.with_splats(&given, |renderer, splats| {
+                renderer.update(commands, &mut scene.0, number, first, splats)
+            })
+        }
+    })
+}
+
+impl SurfelRenderer {
+    /// Does something with splats that C means, in memory that is kept.
+    ///
+    /// # Safety
+    /// As [`Arrays::splats`].
+    pub unsafe fn with_splats<T>(
+        &self,
+        given: &SurfelSplats,
+        then: impl FnOnce(&Renderer, &Splats) -> std::result::Result<T, Error>,
+    ) -> Result<T> {
+        let kept = || self.arrays.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut arrays = kept().pop().unwrap_or_default();
+        // SAFETY: this function's contract.
+        let done = unsafe { arrays.splats(given) }.and_then(|splats| {
+            let done = then(&self.renderer, &splats);
             arrays.take_back(splats);
-            Ok(updated?)
+            Ok(done?)
         });
         kept().push(arrays);
-        updated
-    })
+        done
+    }
 }
 
 /// What a scene on the device is. `surfel_prepared_scene_info` fills it.

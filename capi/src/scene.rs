@@ -12,6 +12,7 @@ use surfel::{
 use crate::{
     handle::{Out, Place, destroy, get, get_mut, text},
     result::{Failure, Result, SurfelResult, guard},
+    rooms::room,
     settings::set,
     splats::{SurfelSplats, array, object},
     structs::{Struct, SurfelStructureType, read},
@@ -40,6 +41,10 @@ pub struct SurfelSceneInfo {
     pub updatable: vk::Bool32,
     /// 0; else it is refused.
     pub reserved: u32,
+    /// `surfel_pick_read` is to tell numbers of splats and triangles, for which the host keeps 4 bytes of each.
+    pub numbered: vk::Bool32,
+    /// 0; else it is refused.
+    pub reserved_too: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -47,7 +52,7 @@ unsafe impl Struct for SurfelSceneInfo {
     const TYPE: SurfelStructureType = SurfelStructureType::SceneInfo;
 
     fn reserved(&self) -> u32 {
-        self.reserved
+        self.reserved | self.reserved_too
     }
 }
 
@@ -63,7 +68,8 @@ pub unsafe extern "C" fn surfel_scene_create(
         let mut scene = Scene::default();
         if !info.is_null() {
             // SAFETY: as above.
-            let SurfelSceneInfo { levels, budget, updatable, .. } = unsafe { read(info, "info") }?;
+            let SurfelSceneInfo { levels, budget, updatable, numbered, .. } = unsafe { read(info, "info") }?;
+            scene.numbered = numbered != vk::FALSE;
             (scene.levels, scene.budget) = (levels != vk::FALSE, budget != vk::FALSE);
             scene.updatable = updatable != vk::FALSE;
         }
@@ -116,8 +122,13 @@ pub unsafe extern "C" fn surfel_scene_add_splats(
         // SAFETY: the contract of the header.
         let (scene, splats) = unsafe { (get_mut(scene, "scene")?, read(splats, "splats")?) };
         // SAFETY: the contract of the header.
-        let object = unsafe { object(&splats) }?;
-        add(&mut scene.0, object, [splats.epsilon, splats.epsilon_in_radii])
+        let (object, room) = unsafe { (object(&splats)?, room(splats.room)?) };
+        add(&mut scene.0, object, [splats.epsilon, splats.epsilon_in_radii])?;
+        if room.is_some() {
+            scene.0.rooms.resize(scene.0.objects.len() - 1, None);
+            scene.0.rooms.push(room);
+        }
+        Ok(())
     })
 }
 

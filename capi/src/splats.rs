@@ -14,6 +14,7 @@ use surfel::{
 use crate::{
     handle::{null, text},
     result::{Failure, Result, SurfelResult},
+    rooms::SurfelRoom,
     structs::{Struct, SurfelStructureType},
 };
 
@@ -103,6 +104,8 @@ pub struct SurfelSplats {
     pub clips: *const SurfelClip,
     /// As `epsilon`, in mean radii of the object; one of both is 0.
     pub epsilon_in_radii: f64,
+    /// Room for splats that come later; NULL: none comes, and none goes. Not for those that `surfel_update` and `surfel_append` are given.
+    pub room: *const SurfelRoom,
 }
 
 // SAFETY: it begins so, and a test looks for padding.

@@ -40,6 +40,14 @@ pub enum SurfelStructureType {
     Memory = 13,
     /// `SurfelMesh`.
     Mesh = 14,
+    /// `SurfelRoom`.
+    Room = 15,
+    /// `SurfelMemoryReport`.
+    MemoryReport = 16,
+    /// `SurfelPicked`.
+    Picked = 17,
+    /// `SurfelLevels`.
+    Levels = 18,
 }
 
 /// No struct is larger in any version: a size beyond is none that a header gave it.

@@ -1,6 +1,6 @@
 //! Splats within an engine: its own device, triangles, depth and submission; each hides the other where it is nearer.
 //!
-//! `cargo run --release --example embed -- out.png`. All that concerns splats is in [`main`]; `examples/engine/` is what an engine has anyway.
+//! `cargo run --release --example embed -- out.png`. All that concerns splats is between the two lines below, as `docs/embedding.md` has it; `examples/engine/` is what an engine has anyway.
 
 #[path = "../engine/mod.rs"]
 mod engine;
@@ -19,6 +19,7 @@ const SIZE_PX: [u32; 2] = [640, 480];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let engine = Engine::new(Style::reversed(SIZE_PX));
+    // ---- Splats
     // Once: the engine's device becomes ours too, and a scene goes there.
     let host = Import {
         instance: &engine.instance,
@@ -65,6 +66,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     engine.wait();
     // SAFETY: waited for.
     unsafe { device.epoch_done(epoch) };
+    // ----
 
     let file = std::env::args().nth(1).unwrap_or_else(|| "embed.png".to_owned());
     engine.save(&file)?;

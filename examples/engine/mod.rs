@@ -122,6 +122,7 @@ impl Engine {
             let messenger = (loader.create_debug_utils_messenger(&info, None).unwrap(), loader);
             let messenger = (messenger.1, messenger.0);
 
+            // ---- Splats
             // The first device that will do, created with what splats want and nothing else.
             let devices = instance.enumerate_physical_devices().unwrap();
             let asked =
@@ -138,6 +139,7 @@ impl Engine {
                 .push_next(&mut vulkan12)
                 .push_next(&mut vulkan13);
             let device = instance.create_device(physical, &info, None).unwrap();
+            // ----
             let queue = device.get_device_queue(family, 0);
 
             let pool = vk::CommandPoolCreateInfo::default().queue_family_index(family);

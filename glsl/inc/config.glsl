@@ -19,6 +19,7 @@
 #define SPEC_PACKED 15        // Constant: disks in 16 bytes, their colors in 4 (`inc/packed.glsl`).
 #define SPEC_OWN_EPSILON 39    // Constant: splats have a share of epsilon of their own (`inc/splat.glsl`).
 #define SPEC_FINE 9           // Constant: positions have a second part (`inc/splat.glsl`).
+#define SPEC_SPARSE 73         // Constant: places of a chunk may have no splat: their radius is below 0.
 #define SPEC_HALF_SUMS 38     // Constant: splats are summed in 16 bits.
 #define SPEC_LIGHTS 21        // Constant: how many lights of its own the scene has.
 #define SPEC_LIMIT_SPLATS 27  // Constant: splats of each invocation of the limit of kernels.

@@ -90,6 +90,9 @@ float center_depth(Mapping m)
 bool map_splat(uint index, out Mapping m)
 {
     Splat splat = load_splat(index);
+    if (SPARSE && splat.radius < 0.0) {
+        return false;
+    }
     vec3 p = splat.p;
     vec3 s = splat.s;
     vec3 t = splat.t;

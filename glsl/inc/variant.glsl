@@ -19,6 +19,7 @@ layout(constant_id = SPEC_IN_LAYERS) const bool IN_LAYERS = false;
 layout(constant_id = SPEC_OWN_EPSILON) const bool OWN_EPSILON = false;
 layout(constant_id = SPEC_PACKED) const bool PACKED = false;
 layout(constant_id = SPEC_FINE) const bool FINE = false;
+layout(constant_id = SPEC_SPARSE) const bool SPARSE = false;
 layout(constant_id = SPEC_HALF_SUMS) const bool HALF_SUMS = false;
 layout(constant_id = SPEC_LEVELS) const uint LEVELS = LEVELS_NONE;
 layout(constant_id = SPEC_BLENDED) const bool BLENDED = false;

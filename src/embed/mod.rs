@@ -28,15 +28,15 @@ mod view;
 pub use crate::{
     graph::{
         ImageState,
-        execute::{FrameProfile, PassCounts, PassProfile, Profile},
+        execute::{FrameProfile, PassCounts, PassFigures, PassProfile, Profile},
     },
     passes::MissingPipelines,
     prepare::{DynamicBuffers, DynamicSplats, NO_TINT, Placed, PreparedScene, dynamic},
     renderer::Renderer,
     scene::{HostCamera, Placement},
     vk::{
-        Device, Features, FeaturesApart, HostAllocation, HostMemory, Import, MemoryRequest, MemoryUse,
-        Requirements, requirements,
+        Device, Features, FeaturesApart, HostAllocation, HostMemory, Import, MemoryHeap, MemoryHeaps,
+        MemoryInUse, MemoryRequest, MemoryUse, Requirements, requirements,
     },
 };
 pub use frame::{DepthImage, ViewFrame};

@@ -18,7 +18,7 @@ use crate::{
     frame::{FrameSlot, SlotParts},
     graph::{
         Graph, ImageDesc,
-        execute::{FrameProfile, Physical},
+        execute::{FrameProfile, PassFigures, Physical},
     },
     inline_vec::InlineVec,
     passes::{self, FramePlan, HostDepth, Inputs, Place, Source, SurfacePlan, Tints, host::BesideHost},
@@ -264,6 +264,19 @@ impl View {
     pub unsafe fn profile(&self) -> Result<Option<FrameProfile>> {
         // SAFETY: this function's contract.
         self.slot.profiler().map(|profiler| unsafe { profiler.read() }).transpose()
+    }
+
+    /// Tells the same pass by pass and answers with the frame's own time, where it was measured; takes nothing from the heap, so that a host may look at each frame.
+    ///
+    /// # Errors
+    /// As [`Self::profile`].
+    ///
+    /// # Safety
+    /// As there.
+    pub unsafe fn each_pass(&self, mut tell: impl FnMut(PassFigures<'_>)) -> Result<Option<f64>> {
+        let Some(profiler) = self.slot.profiler() else { return Ok(None) };
+        // SAFETY: this function's contract.
+        unsafe { profiler.each(&mut tell) }
     }
 
     /// Bytes of device memory that the view holds: images for its draws, and what its passes share.

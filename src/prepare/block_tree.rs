@@ -84,24 +84,28 @@ pub(super) fn above(blocks: &[Block]) -> Vec<Vec<Block>> {
 
 /// Bounds of the splats of blocks. Angles between directions add up at most; a rounding has a reserve where bounds are looked at.
 fn around(blocks: &[Block]) -> Block {
-    let [lo, hi] = blocks.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], block| {
+    let blocks = || blocks.iter().filter(|block| block.count > 0);
+    if blocks().next().is_none() {
+        return Block::EMPTY;
+    }
+    let [lo, hi] = blocks().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], block| {
         [lo.min(block.center - block.radius), hi.max(block.center + block.radius)]
     });
     let center = 0.5 * (lo + hi);
-    let sum: DVec3 = blocks.iter().map(|block| block.axis).sum();
+    let sum: DVec3 = blocks().map(|block| block.axis).sum();
     let axis = sum.try_normalize();
     let spread_of = |axis: DVec3| {
-        blocks.iter().map(|block| axis.angle_between(block.axis) + block.spread_rad).fold(0.0, f64::max)
+        blocks().map(|block| axis.angle_between(block.axis) + block.spread_rad).fold(0.0, f64::max)
     };
     let spread_rad = axis.map_or(PI, spread_of).min(PI);
     Block {
-        count: blocks.iter().map(|block| block.count).sum(),
+        count: blocks().map(|block| block.count).sum(),
         center,
-        radius: blocks.iter().map(|block| block.center.distance(center) + block.radius).fold(0.0, f64::max),
+        radius: blocks().map(|block| block.center.distance(center) + block.radius).fold(0.0, f64::max),
         axis: axis.unwrap_or(DVec3::Z),
         spread_rad,
         spread_sin_cos: spread_rad.sin_cos().into(),
-        largest_radius: blocks.iter().map(|block| block.largest_radius).fold(0.0, f64::max),
+        largest_radius: blocks().map(|block| block.largest_radius).fold(0.0, f64::max),
         levels: None,
     }
 }

@@ -9,13 +9,14 @@ use super::{
     levels::BlockLevels,
     pack::{Packed, Survey},
     packed,
+    updatable::is_there,
 };
 use crate::{inline_vec::InlineVec, shaders::config::BLOCK_SPLATS};
 
 /// The bounds of the splats of a block, in the chunk's local space.
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// How many: [`BLOCK_SPLATS`], and fewer of the last one.
+    /// How many: [`BLOCK_SPLATS`], and fewer of the last one, and where places have none.
     pub count: u32,
     /// The middle of a ball around all centers.
     pub center: DVec3,
@@ -38,40 +39,55 @@ pub struct Block {
 impl Block {
     /// Bounds of what a device reads, which f64 holds exactly. Any axis would do for the cone, whose angle is that of the normal which is
     /// farthest from it; the mean keeps it narrow.
-    fn around(splats: &[Sample]) -> Self {
-        let [lo, hi] = splats.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], splat| {
+    fn around(places: &[Sample]) -> Self {
+        let splats = || places.iter().filter(|splat| splat.is_there());
+        if splats().next().is_none() {
+            return Self::EMPTY;
+        }
+        let [lo, hi] = splats().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], splat| {
             [lo.min(splat.center), hi.max(splat.center)]
         });
         let center = 0.5 * (lo + hi);
-        let sum: DVec3 = splats.iter().map(|splat| splat.normal).sum();
+        let sum: DVec3 = splats().map(|splat| splat.normal).sum();
         let axis = sum.try_normalize();
         // Not by the cosine, which tells small angles no better than 1e-8.
         let angle = |axis: DVec3, normal: DVec3| 2.0 * (0.5 * (axis - normal).length()).min(1.0).asin();
-        let spread_of =
-            |axis: DVec3| splats.iter().map(|splat| angle(axis, splat.normal)).fold(0.0, f64::max);
+        let spread_of = |axis: DVec3| splats().map(|splat| angle(axis, splat.normal)).fold(0.0, f64::max);
         let spread_rad = axis.map_or(PI, spread_of).min(PI);
         Self {
-            count: splats.len() as u32,
+            count: splats().count() as u32,
             center,
-            radius: splats.iter().map(|splat| splat.center.distance(center)).fold(0.0, f64::max),
+            radius: splats().map(|splat| splat.center.distance(center)).fold(0.0, f64::max),
             axis: axis.unwrap_or(DVec3::Z),
             spread_rad,
             spread_sin_cos: spread_rad.sin_cos().into(),
-            largest_radius: splats.iter().map(|splat| splat.radius).fold(0.0, f64::max),
+            largest_radius: splats().map(|splat| splat.radius).fold(0.0, f64::max),
             levels: None,
         }
     }
 }
 
 impl Block {
+    /// Of no splat.
+    pub(super) const EMPTY: Self = Self {
+        count: 0,
+        center: DVec3::ZERO,
+        radius: 0.0,
+        axis: DVec3::Z,
+        spread_rad: 0.0,
+        spread_sin_cos: [0.0, 1.0],
+        largest_radius: 0.0,
+        levels: None,
+    };
+
     /// The block of these splats, no more than it has, as they are packed, and the box of their centers.
     pub(super) fn of(words: &[[u32; 4]], survey: &Survey) -> (Self, [DVec3; 2]) {
         let each = survey.shape_bytes() / 16;
         let splats: InlineVec<_, { BLOCK_SPLATS as usize }> =
             words.chunks_exact(each).map(|words| sample(words, survey)).collect();
         let nowhere = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-        let bounds =
-            splats.iter().fold(nowhere, |[lo, hi], splat| [lo.min(splat.center), hi.max(splat.center)]);
+        let there = splats.iter().filter(|splat| splat.is_there());
+        let bounds = there.fold(nowhere, |[lo, hi], splat| [lo.min(splat.center), hi.max(splat.center)]);
         (Self::around(&splats), bounds)
     }
 }
@@ -83,6 +99,13 @@ struct Sample {
     /// Of unit length.
     normal: DVec3,
     radius: f64,
+}
+
+impl Sample {
+    /// Whether its place has a splat.
+    fn is_there(&self) -> bool {
+        is_there(self.radius as f32)
+    }
 }
 
 /// The blocks of a chunk, while it is packed.

@@ -42,8 +42,10 @@ pub struct Chunk {
     pub(super) numbers: Option<Vec<u32>>,
     /// Its local space.
     pub rebase: Rebase,
-    /// How many splats.
+    /// How many splats; of a sparse one so many places, in some of which there is none.
     pub count: u32,
+    /// Splats may be taken out of it, and put into places that have none.
+    pub sparse: bool,
     /// Whether they carry tangent vectors.
     pub ellipses: bool,
     /// Whether they belong to a closed, outward-oriented surface.
@@ -126,6 +128,7 @@ impl Chunk {
             numbers: None,
             rebase: survey.rebase,
             count: survey.count,
+            sparse: false,
             ellipses: survey.ellipses,
             closed,
             transparent,
@@ -218,6 +221,14 @@ impl Chunk {
             uploader.submit(staging)?;
         }
         Ok(())
+    }
+
+    /// How many splats are in it.
+    pub(super) fn present(&self) -> u32 {
+        match self.tree.levels.last() {
+            Some(top) if self.sparse => top.iter().flat_map(|quad| quad.counts).sum(),
+            _ => self.count,
+        }
     }
 
     /// The number in its object of a splat of this chunk, where it is kept ([`crate::scene::Scene::numbered`]).

@@ -1,6 +1,8 @@
 //! A scene cut into chunks: each object into pieces that a buffer holds, each piece into sites, which have an origin of their own.
 
+mod levels;
 mod meshes;
+mod rooms;
 
 use std::ops::Range;
 
@@ -9,13 +11,11 @@ use super::{
     chunk::{self, Chunk},
     level_words::LevelWords,
     levels::{ChunkLevels, LevelPart, Leveled},
-    made_levels::made_levels,
     memory::Uploader,
     near_surfaces,
     pack::{self, Packed},
     part::{Numbers, Part},
     pieces,
-    refinements::Refinements,
     sequence::Sequence,
     sites::{Site, sites},
     updatable::{self, Shadow},
@@ -23,9 +23,7 @@ use super::{
 use crate::{
     error::Result,
     geometry::Overlaps,
-    scene::{
-        Clip, DefectCounts, Epsilon, HybridLevels, LeveledObject, Object, Opacity, Order, Scene, SplatFormat,
-    },
+    scene::{Clip, DefectCounts, Epsilon, Object, Opacity, Order, Room, Scene, SplatFormat},
     vk::Limits,
 };
 
@@ -46,6 +44,7 @@ pub(super) fn cut(
     scene.check_lengths()?;
     scene.check_lights()?;
     scene.check_epsilons()?;
+    scene.check_rooms()?;
     updatable::check(scene)?;
     let of_splats = scene.objects.iter().map(|object| object.name.as_str());
     let leveled = scene.leveled.iter().map(|object| object.name.as_str());
@@ -74,6 +73,7 @@ pub(super) fn cut(
             mean_transparent_radius: 0.0,
             defects: DefectCounts::default(),
             changes: Default::default(),
+            rooms: Vec::new(),
         },
     };
     for (number, object) in scene.objects.iter().enumerate() {
@@ -81,7 +81,9 @@ pub(super) fn cut(
         let auto = epsilon.map_or(!scene.without_auto_epsilon, |epsilon| epsilon == Epsilon::Auto);
         let leveled = if scene.levels { cut.leveled(object)? } else { None };
         match &leveled {
-            None => cut.object((number, object), epsilon, auto)?,
+            None => {
+                cut.object((number, object), epsilon, auto, scene.rooms.get(number).copied().flatten())?
+            }
             Some((leveled, leaves)) => {
                 cut.levels((number, leveled, None), (epsilon, auto), leaves.as_deref())?;
             }
@@ -132,51 +134,28 @@ impl Cut<'_, '_> {
         (self.progress)(self.done, self.total);
     }
 
-    /// An object in levels of detail, which are made here, and the numbers of its leaves where such are kept; `None` where it has no room for any.
-    fn leveled(&mut self, object: &Object) -> Result<Option<(LeveledObject, Option<Vec<u32>>)>> {
-        self.step(0);
-        let Some(made) = made_levels(object, self.numbered)? else { return Ok(None) };
-        self.prepared.defects.merge(&made.defects);
-        self.total += made.object.nodes.len() as u64;
-        self.done += made.defects.total() as u64;
-        Ok(Some((made.object, made.numbers)))
-    }
-
-    /// Its own splats, then the nodes, which have ε in radii of their own. `numbers`: of its own splats, where they are known.
-    fn levels(
-        &mut self,
-        (number, object, hybrid): (usize, &LeveledObject, Option<&HybridLevels>),
-        (epsilon, auto): (Option<Epsilon>, bool),
-        numbers: Option<&[u32]>,
-    ) -> Result<()> {
-        if self.budget {
-            self.prepared.refinements.push(Refinements::of(object));
-        }
-        let leveled = &Leveled::of(object, numbers, hybrid);
-        let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
-        let numbers = leveled.numbers.as_deref().map_or(Numbers::Unknown, Numbers::Listed);
-        let leaves = (number, &leveled.leaves, numbers);
-        self.part_of(leaves, (epsilon, auto), Order::Input, levels(false))?;
-        let nodes = (number, &leveled.nodes, Numbers::Unknown);
-        self.part_of(nodes, (epsilon, false), Order::Input, levels(true))
-    }
-
     /// `auto`: ε is to fit what is near each splat.
     fn object(
         &mut self,
         (number, object): (usize, &Object),
         epsilon: Option<Epsilon>,
         auto: bool,
+        room: Option<Room>,
     ) -> Result<()> {
         let splats = &object.splats;
         let opacity = splats.colors.opacity();
-        if opacity == Opacity::Invisible {
+        if opacity == Opacity::Invisible && room.is_none() {
             self.step(splats.len());
             return Ok(());
         }
         let order = self.prepared.storage.order;
         let numbers = if self.numbered || self.updatable { Numbers::Own } else { Numbers::Unknown };
-        self.part_of((number, object, numbers), (epsilon, auto), order, None)
+        let first = self.prepared.chunks.len();
+        self.part_of((number, object, numbers), (epsilon, auto), order, None)?;
+        if let Some(room) = room {
+            self.room((number, object, epsilon), first, room)?;
+        }
+        Ok(())
     }
 
     /// An object that can be seen, or one of its two parts.
@@ -188,10 +167,8 @@ impl Cut<'_, '_> {
         levels: Option<(&Leveled, ChunkLevels)>,
     ) -> Result<()> {
         let (splats, storage) = (&object.splats, self.prepared.storage);
-        let transparent = levels.map_or_else(
-            || splats.colors.opacity() == Opacity::Transparent,
-            |(leveled, _)| leveled.transparent,
-        );
+        let transparent = levels
+            .map_or_else(|| splats.colors.opacity() != Opacity::Opaque, |(leveled, _)| leveled.transparent);
         // Packed disks have no room for a share.
         let exact = storage.format == SplatFormat::Exact;
         // So that a bar is there meanwhile.

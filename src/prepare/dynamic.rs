@@ -46,7 +46,7 @@ pub struct DynamicSplats {
 const FARTHEST: f64 = 1e18;
 
 /// The mean of the default kernel, exp(−2 r²), over a disk: (1 − e⁻²) / 2. Disks sum to that times their number.
-const MEAN_WEIGHT: f64 = 0.432_332_358_381_693_65;
+pub(super) const MEAN_WEIGHT: f64 = 0.432_332_358_381_693_65;
 
 /// Where a host writes them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,6 +143,7 @@ impl PreparedScene {
             refinements: Vec::new(),
             defects: DefectCounts::default(),
             changes: Default::default(),
+            rooms: Vec::new(),
         };
         scene.set_dynamic(splats)?;
         Ok(scene)

@@ -54,7 +54,7 @@ use std::ops::Range;
 
 use cut::cut;
 use memory::Uploader;
-pub(crate) use updatable::Changes;
+pub(crate) use updatable::{Changes, RoomOf, Update};
 
 use crate::{
     error::{Error, Result},
@@ -85,6 +85,8 @@ pub struct PreparedScene {
     pub defects: DefectCounts,
     /// What changes of its splats are found with.
     pub(crate) changes: Changes,
+    /// Of objects that have room for more splats, by their number.
+    pub(crate) rooms: Vec<Option<RoomOf>>,
 }
 
 impl PreparedScene {
@@ -112,7 +114,7 @@ impl PreparedScene {
     /// How many splats there are, without those that stand for others.
     pub fn splat_count(&self) -> u64 {
         let own = self.chunks.iter().filter(|chunk| !chunk.is_of_nodes());
-        own.map(|chunk| u64::from(chunk.count)).sum()
+        own.map(|chunk| u64::from(chunk.present())).sum()
     }
 
     /// How many triangles are drawn.

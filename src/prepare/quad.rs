@@ -20,8 +20,8 @@ pub struct Quad {
     pub largest_radius: Vec4,
     /// How many splats.
     pub counts: [u32; 4],
-    /// How many neighbors there are.
-    pub len: u32,
+    /// A bit of each neighbor in which there are splats.
+    pub filled: u32,
 }
 
 /// Lengths are larger by so much: more than all roundings of a sum of them in f32.
@@ -47,7 +47,7 @@ impl Quad {
             quad.spread_sin_cos[1][i] = block.spread_sin_cos[1] as f32;
             quad.largest_radius[i] = (block.largest_radius * LENGTHENED) as f32;
             quad.counts[i] = block.count;
-            quad.len += 1;
+            quad.filled |= u32::from(block.count > 0) << i;
         }
         quad
     }
@@ -79,7 +79,7 @@ mod tests {
                 })
                 .collect();
             let quad = Quad::of(&blocks);
-            assert_eq!(quad.len, blocks.len() as u32);
+            assert_eq!(quad.filled, (1 << blocks.len()) - 1);
             for (i, block) in blocks.iter().enumerate() {
                 let center =
                     DVec3::new(quad.center[0][i].into(), quad.center[1][i].into(), quad.center[2][i].into());

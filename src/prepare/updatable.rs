@@ -2,6 +2,8 @@
 //!
 //! Of each splat the host keeps what the device has, 40 bytes (48 to 72 of ellipses and fine ones), and 8 of where it lies. So bounds are always those of what is there:
 //! of a block that a change touches they are found anew from its 256 splats, and those of the chunk from its blocks'. What a change is found with lies in memory that the scene keeps.
+//!
+//! Each number of an object has its place for as long as the scene is there, also where no splat is in it (`rooms.rs`).
 
 use std::ops::Range;
 
@@ -123,7 +125,7 @@ impl Shadow {
 
 impl Chunk {
     /// How its splats are packed, whichever they are.
-    fn packing(&self) -> Survey {
+    pub(super) fn packing(&self) -> Survey {
         Survey {
             rebase: self.rebase,
             count: self.count,
@@ -142,7 +144,14 @@ impl Chunk {
 }
 
 mod change;
+mod rooms;
+#[cfg(test)]
+mod rooms_tests;
 #[cfg(test)]
 mod tests;
+mod update;
 
 pub(crate) use change::Changes;
+pub(crate) use rooms::RoomOf;
+pub(super) use rooms::{empties, is_there};
+pub(crate) use update::Update;

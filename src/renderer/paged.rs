@@ -65,6 +65,7 @@ impl PagedScene {
             refinements: Vec::new(),
             defects: Default::default(),
             changes: Default::default(),
+            rooms: Vec::new(),
         };
         Ok(Self { pager, most_bytes, prepared, groups: Vec::new(), is_there, is_full: false })
     }

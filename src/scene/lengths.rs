@@ -1,6 +1,6 @@
 //! What no scene has, whoever made it: lists that belong together have as many as there are positions; lights shine, and an ε is a length.
 
-use super::{Colors, Light, MOST_LIGHTS, OptionValue, Scene, Shapes, Splats};
+use super::{Colors, Light, MOST_LIGHTS, OptionValue, Room, Scene, Shapes, Splats};
 use crate::error::{Error, Result};
 
 impl Scene {
@@ -21,6 +21,34 @@ impl Scene {
         for (number, epsilon) in self.epsilons.iter().enumerate() {
             let checked = epsilon.as_ref().map_or(Ok(()), OptionValue::check);
             checked.map_err(|problem| Error::option(format!("epsilon of object {number}"), problem))?;
+        }
+        Ok(())
+    }
+
+    /// Refuses room for splats that none can be given.
+    pub(crate) fn check_rooms(&self) -> Result<()> {
+        let rooms = self.rooms.iter().enumerate().filter_map(|(number, room)| Some((number, (*room)?)));
+        for (number, Room { splats, around, overlap }) in rooms {
+            let refused = |problem: String| Err(Error::option(format!("room of object {number}"), problem));
+            if !self.updatable {
+                return refused("expected a scene with Scene::updatable".to_owned());
+            }
+            let Some(object) = self.objects.get(number) else {
+                return refused(format!("the scene has {} objects of splats", self.objects.len()));
+            };
+            if !object.splats.clips.is_empty() {
+                return refused("clip curves cut its splats: expected whole ones".to_owned());
+            }
+            let own = object.splats.len();
+            if u32::try_from(own).ok().and_then(|own| own.checked_add(splats)).is_none() {
+                return refused(format!("{splats} splats behind {own}: expected numbers of 32 bits"));
+            }
+            if around.is_some_and(|around| !around.is_finite()) {
+                return refused("around: expected a place".to_owned());
+            }
+            if overlap.is_some_and(|overlap| !(overlap >= 1.0 && overlap.is_finite())) {
+                return refused("overlap: expected 1 or more".to_owned());
+            }
         }
         Ok(())
     }

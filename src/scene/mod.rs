@@ -33,6 +33,7 @@ mod path;
 mod placement;
 mod points;
 mod refusals;
+mod room;
 mod samples;
 mod settings;
 mod splats;
@@ -72,6 +73,7 @@ pub use outlines::Outlines;
 pub use path::{CameraPath, Interpolation};
 pub use placement::Placement;
 pub use points::{Points, Viewpoint};
+pub use room::Room;
 pub use samples::{MOST_SAMPLES, Samples};
 pub use settings::{Settings, with_each};
 pub use splats::{Defect, DefectCounts, Shapes, Splats};
@@ -133,6 +135,8 @@ pub struct Scene {
     /// For [`crate::renderer::Renderer::update`]: for each splat the host keeps what the device has of it, 40 bytes of a disk and 56 of an ellipse, and 8 of where that is.
     /// Each has a color of its own on the device. Not for levels of detail, nor for [`SplatFormat::Packed`].
     pub updatable: bool,
+    /// Of objects of splats of an updatable scene, by their place in [`Self::objects`], room for splats that come later; others, and those beyond its end, have none.
+    pub rooms: Vec<Option<Room>>,
     /// Splats that have their levels of detail already, drawn behind [`Self::objects`].
     pub leveled: Vec<LeveledObject>,
     /// Levels of detail of meshes, at most one of each.

@@ -10,7 +10,7 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::{
     choose::{DeviceFacts, choose},
-    facts::{all_facts, check_executables},
+    facts::{all_facts, check_executables, has_extension},
     garbage::{Garbage, Retired},
     host_memory::{HostMemory, Source},
     instance::Instance,
@@ -40,6 +40,8 @@ struct Shared {
     /// Whether a [`super::Queue`] counts the epochs; a host does so for a borrowed device.
     queue_taken: AtomicBool,
     origin: Origin,
+    /// The physical device has `VK_EXT_memory_budget`.
+    tells_budget: bool,
 }
 
 /// The epoch before the first submission.
@@ -120,7 +122,7 @@ impl Device {
     ) -> Result<Self> {
         let owned = origin != Origin::Host;
         let source = match memory {
-            Some(host) => Source::Host { host, bytes: 0, pieces: 0 },
+            Some(host) => Source::host(host),
             None => match Allocator::new(&AllocatorCreateDesc {
                 instance: instance.raw().clone(),
                 device: raw.clone(),
@@ -129,7 +131,7 @@ impl Device {
                 buffer_device_address: false,
                 allocation_sizes: block_sizes(),
             }) {
-                Ok(allocator) => Source::Ours(Box::new(allocator)),
+                Ok(allocator) => Source::ours(allocator),
                 Err(error) => {
                     if owned {
                         // SAFETY: just created, used by nobody.
@@ -153,6 +155,8 @@ impl Device {
             memory: Mutex::new(Some((source, Garbage::default()))),
             queue_taken: AtomicBool::new(!owned),
             origin,
+            // SAFETY: both are alive and belong together.
+            tells_budget: unsafe { has_extension(instance.raw(), physical, ext::memory_budget::NAME) },
         })))
     }
 
@@ -184,6 +188,10 @@ impl Device {
     /// The device and what it can do: of optional features, those that are enabled.
     pub fn facts(&self) -> &DeviceFacts {
         &self.0.facts
+    }
+
+    pub(super) fn tells_budget(&self) -> bool {
+        self.0.tells_budget
     }
 
     /// The family of the one queue that is used.

@@ -5,7 +5,7 @@ use std::ptr::NonNull;
 use ash::vk;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme, Allocator};
 
-use super::memory::MemoryUse;
+use super::{budget::MemoryInUse, memory::MemoryUse};
 use crate::error::{Error, ErrorKind};
 
 /// What is asked of a host's allocator.
@@ -52,7 +52,13 @@ pub unsafe trait HostMemory: Send + Sync {
 }
 
 /// Memory of one object.
-pub(super) enum Piece {
+pub(super) struct Piece {
+    of: PieceOf,
+    touched_by: MemoryUse,
+    linear: bool,
+}
+
+enum PieceOf {
     Ours(Allocation),
     Host(HostAllocation, u64),
 }
@@ -68,67 +74,81 @@ impl Piece {
     /// # Safety
     /// The piece outlives what is bound to it.
     pub unsafe fn place(&self) -> (vk::DeviceMemory, u64) {
-        match self {
+        match &self.of {
             // SAFETY: this function's contract.
-            Self::Ours(allocation) => (unsafe { allocation.memory() }, allocation.offset()),
-            Self::Host(allocation, _) => (allocation.memory, allocation.offset),
+            PieceOf::Ours(allocation) => (unsafe { allocation.memory() }, allocation.offset()),
+            PieceOf::Host(allocation, _) => (allocation.memory, allocation.offset),
         }
     }
 
     pub fn size(&self) -> u64 {
-        match self {
-            Self::Ours(allocation) => allocation.size(),
-            Self::Host(_, size) => *size,
+        match &self.of {
+            PieceOf::Ours(allocation) => allocation.size(),
+            PieceOf::Host(_, size) => *size,
         }
     }
 
     /// Its first byte, where the processor sees it.
     pub fn mapped(&self) -> Option<NonNull<u8>> {
-        match self {
-            Self::Ours(allocation) => allocation.mapped_ptr().map(NonNull::cast),
-            Self::Host(allocation, _) => allocation.mapped,
+        match &self.of {
+            PieceOf::Ours(allocation) => allocation.mapped_ptr().map(NonNull::cast),
+            PieceOf::Host(allocation, _) => allocation.mapped,
         }
     }
 
     /// Its bytes, where the processor sees them; else none.
     pub fn bytes(&self) -> &[u8] {
-        match self {
-            Self::Ours(allocation) => allocation.mapped_slice().unwrap_or_default(),
-            Self::Host(HostAllocation { mapped: Some(first), .. }, size) => {
+        match &self.of {
+            PieceOf::Ours(allocation) => allocation.mapped_slice().unwrap_or_default(),
+            PieceOf::Host(HostAllocation { mapped: Some(first), .. }, size) => {
                 // SAFETY: the host's contract: so many bytes are mapped there, and nobody else's.
                 unsafe { std::slice::from_raw_parts(first.as_ptr(), *size as usize) }
             }
-            Self::Host(..) => &[],
+            PieceOf::Host(..) => &[],
         }
     }
 
     /// The same for writing.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
-        match self {
-            Self::Ours(allocation) => allocation.mapped_slice_mut().unwrap_or_default(),
-            Self::Host(HostAllocation { mapped: Some(first), .. }, size) => {
+        match &mut self.of {
+            PieceOf::Ours(allocation) => allocation.mapped_slice_mut().unwrap_or_default(),
+            PieceOf::Host(HostAllocation { mapped: Some(first), .. }, size) => {
                 // SAFETY: as in `bytes`.
                 unsafe { std::slice::from_raw_parts_mut(first.as_ptr(), *size as usize) }
             }
-            Self::Host(..) => &mut [],
+            PieceOf::Host(..) => &mut [],
         }
     }
 }
 
 /// Where memory comes from.
-pub(super) enum Source {
+pub(super) struct Source {
+    from: From,
+    in_use: MemoryInUse,
+    pieces: usize,
+}
+
+enum From {
     Ours(Box<Allocator>),
-    Host { host: std::sync::Arc<dyn HostMemory>, bytes: u64, pieces: usize },
+    Host(std::sync::Arc<dyn HostMemory>),
 }
 
 impl Source {
+    pub fn ours(allocator: Allocator) -> Self {
+        Self { from: From::Ours(Box::new(allocator)), in_use: MemoryInUse::default(), pieces: 0 }
+    }
+
+    pub fn host(host: std::sync::Arc<dyn HostMemory>) -> Self {
+        Self { from: From::Host(host), in_use: MemoryInUse::default(), pieces: 0 }
+    }
+
     pub fn allocate(&mut self, request: &MemoryRequest<'_>) -> Result<Piece, Error> {
         let MemoryRequest { name, requirements, touched_by, linear } = *request;
         let failed = |reason: String| -> Error {
             ErrorKind::Memory { object: name.to_owned(), bytes: requirements.size, reason }.into()
         };
-        match self {
-            Self::Ours(allocator) => {
+        let of = match &mut self.from {
+            From::Ours(allocator) => {
                 let desc = AllocationCreateDesc {
                     name,
                     requirements,
@@ -136,9 +156,9 @@ impl Source {
                     linear,
                     allocation_scheme: AllocationScheme::GpuAllocatorManaged,
                 };
-                allocator.allocate(&desc).map(Piece::Ours).map_err(|error| failed(error.to_string()))
+                allocator.allocate(&desc).map(PieceOf::Ours).map_err(|error| failed(error.to_string()))?
             }
-            Self::Host { host, bytes, pieces } => {
+            From::Host(host) => {
                 let given = host.allocate(request);
                 let given =
                     given.map_err(|result| failed(format!("the host's allocator answered {result}")))?;
@@ -146,43 +166,54 @@ impl Source {
                     host.free(given);
                     return Err(failed("the host's allocator gave memory that is not mapped".to_owned()));
                 }
-                (*bytes, *pieces) = (*bytes + requirements.size, *pieces + 1);
-                Ok(Piece::Host(given, requirements.size))
+                PieceOf::Host(given, requirements.size)
             }
-        }
+        };
+        let piece = Piece { of, touched_by, linear };
+        *self.part(&piece) += piece.size();
+        self.pieces += 1;
+        Ok(piece)
     }
 
     pub fn free(&mut self, piece: Piece) {
-        match (self, piece) {
-            (Self::Ours(allocator), Piece::Ours(allocation)) => {
+        *self.part(&piece) -= piece.size();
+        self.pieces -= 1;
+        match (&mut self.from, piece.of) {
+            (From::Ours(allocator), PieceOf::Ours(allocation)) => {
                 // Freeing fails only for an allocation of another allocator, which can't come here.
                 let freed = allocator.free(allocation);
                 debug_assert!(freed.is_ok(), "{freed:?}");
             }
-            (Self::Host { host, bytes, pieces }, Piece::Host(allocation, size)) => {
-                host.free(allocation);
-                (*bytes, *pieces) = (*bytes - size, *pieces - 1);
-            }
+            (From::Host(host), PieceOf::Host(allocation, _)) => host.free(allocation),
             _ => debug_assert!(false, "a piece of another source"),
+        }
+    }
+
+    /// Where a piece counts.
+    fn part(&mut self, piece: &Piece) -> &mut u64 {
+        match (piece.touched_by, piece.linear) {
+            (MemoryUse::Device, true) => &mut self.in_use.buffers,
+            (MemoryUse::Device, false) => &mut self.in_use.images,
+            (MemoryUse::Upload, _) => &mut self.in_use.upload,
+            (MemoryUse::Readback, _) => &mut self.in_use.readback,
         }
     }
 
     /// Bytes in use, and how many pieces they are.
     pub fn in_use(&self) -> (u64, usize) {
-        match self {
-            Self::Ours(allocator) => {
-                let report = allocator.generate_report();
-                (report.total_allocated_bytes, report.allocations.len())
-            }
-            Self::Host { bytes, pieces, .. } => (*bytes, *pieces),
-        }
+        (self.in_use.total(), self.pieces)
+    }
+
+    /// The same by what it is for, and what is idle beside it.
+    pub fn by_use(&self) -> MemoryInUse {
+        MemoryInUse { idle: self.held() - self.in_use.total(), ..self.in_use }
     }
 
     /// Bytes that are taken from the device, idle ones included.
     pub fn held(&self) -> u64 {
-        match self {
-            Self::Ours(allocator) => allocator.capacity(),
-            Self::Host { bytes, .. } => *bytes,
+        match &self.from {
+            From::Ours(allocator) => allocator.capacity(),
+            From::Host(_) => self.in_use.total(),
         }
     }
 }

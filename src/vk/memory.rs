@@ -4,6 +4,7 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 
 use super::{
+    budget::MemoryInUse,
     device::Device,
     garbage::Retired,
     host_memory::{MemoryRequest, Piece},
@@ -108,6 +109,11 @@ impl Device {
     /// Bytes of device memory that are allocated now, and how many allocations they are.
     pub fn memory_in_use(&self) -> (u64, usize) {
         self.memory().as_ref().map_or((0, 0), |(source, _)| source.in_use())
+    }
+
+    /// What of it is for what, and what lies idle. [`crate::prepare::PreparedScene::bytes`] and [`crate::embed::View::bytes`] are what one scene and one view have of it.
+    pub fn memory_by_use(&self) -> MemoryInUse {
+        self.memory().as_ref().map_or(MemoryInUse::default(), |(source, _)| source.by_use())
     }
 
     /// Bytes of device memory that are taken from the device now: what is allocated, and what lies idle in blocks of ours. Of a host's memory, what is

@@ -6,6 +6,7 @@
 //! else works on both alike.
 
 mod allow_list;
+mod budget;
 mod buffer;
 mod choose;
 mod commands;
@@ -52,6 +53,7 @@ mod validation;
 mod wanted;
 
 pub use allow_list::{ALLOWED, Allowed};
+pub use budget::{MemoryHeap, MemoryHeaps, MemoryInUse};
 pub(crate) use buffer::texel_bytes;
 pub use buffer::{Buffer, BufferDesc};
 pub use choose::{DeviceFacts, DeviceKind, Limits, choose};

@@ -44,18 +44,18 @@ impl Timestamps {
         unsafe { device.raw().cmd_write_timestamp2(commands, stage, *raw, index) };
     }
 
-    /// The first `count` timestamps in ticks, each `None` where it was not written.
+    /// A timestamp in ticks; `None` where it was not written.
     ///
     /// # Errors
     /// Whatever the driver answers.
     ///
     /// # Safety
-    /// Commands that reset these queries have run.
-    pub unsafe fn read(&self, count: u32) -> Result<Vec<Option<u64>>> {
+    /// `index` is below [`QueryPool::count`]; commands that reset it have run.
+    pub unsafe fn read(&self, index: u32) -> Result<Option<u64>> {
         // SAFETY: this function's contract.
-        let values = unsafe { self.pool.read(count, 1) }?;
+        let value = unsafe { self.pool.read(index, 1) }?;
         let mask = if self.valid_bits >= 64 { u64::MAX } else { (1 << self.valid_bits) - 1 };
-        Ok(values.into_iter().map(|value| value.map(|v| v[0] & mask)).collect())
+        Ok(value.map(|v| v[0] & mask))
     }
 
     /// Seconds from one timestamp to a later one, across one wrap of the counter.
@@ -94,16 +94,16 @@ impl Statistics {
         Ok(Some(Self { pool: QueryPool::new(device, name, info)? }))
     }
 
-    /// Vertex, fragment and compute invocations of the first `count` queries, each `None` where it was not written.
+    /// Vertex, fragment and compute invocations of a query; `None` where it was not written.
     ///
     /// # Errors
     /// Whatever the driver answers.
     ///
     /// # Safety
-    /// Commands that reset these queries have run.
-    pub unsafe fn read(&self, count: u32) -> Result<Vec<Option<[u64; 3]>>> {
+    /// `index` is below [`QueryPool::count`]; commands that reset it have run.
+    pub unsafe fn read(&self, index: u32) -> Result<Option<[u64; 3]>> {
         // SAFETY: this function's contract.
-        unsafe { self.pool.read(count, 3) }
+        unsafe { self.pool.read(index, 3) }
     }
 }
 
@@ -221,49 +221,30 @@ impl QueryPool {
         unsafe { device.raw().cmd_end_query(commands, *raw, index) };
     }
 
-    /// The first `count` queries of `words` values each. Does not wait: what is not available is `None`.
+    /// A query of `words` values, 3 at most, without a wait: what is not available is `None`. It lies in place, so that a host which looks at each frame takes nothing from the heap.
     ///
     /// # Safety
-    /// Commands that reset these queries have run.
-    unsafe fn read(&self, count: u32, words: usize) -> Result<Vec<Option<[u64; 3]>>> {
-        let count = count.min(self.count) as usize;
-        if count == 0 {
-            return Ok(Vec::new());
-        }
-        let stride = words + 1;
-        let mut data = vec![0_u64; count * stride];
+    /// `index` is below [`Self::count`]; commands that reset it have run.
+    unsafe fn read(&self, index: u32, words: usize) -> Result<Option<[u64; 3]>> {
+        let mut data = [0_u64; 4];
+        let row = &mut data[..words + 1];
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WITH_AVAILABILITY;
-        let size = size_of_val(data.as_slice());
+        let bytes = size_of_val(row);
         let Owned { device, raw, .. } = &self.owned;
         let get = device.raw().fp_v1_0().get_query_pool_results;
-        // SAFETY: `data` has room for `count` results of `stride` 64-bit values; the pool is alive. The raw function
+        // SAFETY: `row` has room for the query's values and whether they are available; the pool is alive. The raw function
         // is called because ash's wrapper takes one element a query.
         let result = unsafe {
-            get(
-                device.raw().handle(),
-                *raw,
-                0,
-                count as u32,
-                size,
-                data.as_mut_ptr().cast(),
-                (stride * size_of::<u64>()) as u64,
-                flags,
-            )
+            let into = row.as_mut_ptr().cast();
+            get(device.raw().handle(), *raw, index, 1, bytes, into, bytes as u64, flags)
         };
         match result {
             vk::Result::SUCCESS | vk::Result::NOT_READY => {}
             other => return Err(other).of_call("vkGetQueryPoolResults", &self.name),
         }
-        Ok(data
-            .chunks_exact(stride)
-            .map(|row| {
-                (row[words] != 0).then(|| {
-                    let mut values = [0; 3];
-                    values[..words].copy_from_slice(&row[..words]);
-                    values
-                })
-            })
-            .collect())
+        let [first, second, third, _] = data;
+        let values = [first, if words > 1 { second } else { 0 }, if words > 2 { third } else { 0 }];
+        Ok((data[words] != 0).then_some(values))
     }
 }
 

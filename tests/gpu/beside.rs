@@ -14,6 +14,7 @@ mod onto;
 mod recording;
 mod refusals;
 mod ring;
+mod rooms;
 mod several;
 mod tints;
 mod transparent;

@@ -3,6 +3,7 @@
 #[path = "../../src/shaders/build/mod.rs"]
 mod shader_build;
 
+mod guide;
 mod import_direction;
 mod instructions;
 mod public_items;

@@ -25,8 +25,12 @@ const INTERFACE: &[(&[&str], &[&str])] = &[
     (&["prepare/"], &["Placed", "NO_TINT", "PreparedScene", "DynamicSplats", "DynamicBuffers"]),
     (&["prepare/dynamic.rs"], &["disk", "color"]),
     (&["graph/resource.rs"], &["ImageState"]),
-    (&["graph/execute/profiler.rs"], &["Profile", "FrameProfile", "PassProfile", "PassCounts"]),
+    (
+        &["graph/execute/profiler.rs"],
+        &["Profile", "FrameProfile", "PassProfile", "PassFigures", "PassCounts"],
+    ),
     (&["vk/"], &["Limits", "Device", "Features", "FeaturesApart", "Import", "Requirements", "requirements"]),
+    (&["vk/budget.rs"], &["MemoryHeap", "MemoryHeaps", "MemoryInUse"]),
     (&["vk/memory.rs", "vk/host_memory.rs"], &["HostMemory", "MemoryRequest", "MemoryUse", "HostAllocation"]),
     (
         &["scene/"],
@@ -44,6 +48,7 @@ const INTERFACE: &[(&[&str], &[&str])] = &[
             "Light",
             "LightKind",
             "Storage",
+            "Room",
             // What those have in them.
             "Accumulate",
             "Backfaces",
@@ -116,7 +121,7 @@ const INSIDE: &[&str] = &[
 const FOREIGN: &[&str] = &[
     "Arc", "BTreeMap", "CStr", "Clone", "Copy", "DAffine3", "DMat3", "DMat4", "DQuat", "DVec2", "DVec3",
     "DVec4", "Default", "Duration", "Fn", "FnMut", "From", "Into", "Item", "Iterator", "NonNull", "Option",
-    "Path", "PathBuf", "Result", "Self", "Send", "String", "Sync", "Vec", "Vec2", "Vec3",
+    "Range", "Path", "PathBuf", "Result", "Self", "Send", "String", "Sync", "Vec", "Vec2", "Vec3",
 ];
 
 /// Every file of `src/` below these paths, but tests, with its text, in order.

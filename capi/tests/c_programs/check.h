@@ -41,6 +41,10 @@ void dynamic(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Splats that change, tints, and whose a pixel is and how it has moved: of two balls, one of which moves, and then of the camera. */
 void objects(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+/* Splats that are added and taken out. */
+void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+/* Levels of detail of the host's own. */
+void levels(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Triangles, clip curves, a left-handed world, and pipelines one after the other. */
 void shapes(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* All memory is the host's, and what it refuses is an error after which the next frame works. */

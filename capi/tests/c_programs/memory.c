@@ -60,6 +60,22 @@ void memory(Engine *engine, SurfelImport host) {
     OK(surfel_renderer_create(device, NULL, &renderer));
     SurfelPreparedScene *ball = upload(engine, device, renderer, 1);
     TRUE(own.asked > 1 && own.live > 1);
+    SurfelMemoryReport report = {.sType = SURFEL_STRUCTURE_TYPE_MEMORY_REPORT, .size = sizeof report};
+    uint64_t used, held;
+    OK(surfel_device_memory_report(device, &report));
+    OK(surfel_device_memory(device, &used, &held));
+    TRUE(report.buffers >= 1999 * 32 && report.idle == 0);
+    TRUE(report.buffers + report.images + report.upload + report.readback == used && used == held);
+    TRUE(report.heapCount == own.types.memoryHeapCount);
+    for (uint32_t i = 0; i < report.heapCount; i++) {
+        const SurfelMemoryHeap *heap = report.heaps + i;
+        TRUE(heap->size == own.types.memoryHeaps[i].size && heap->budget > 0 && heap->budget <= heap->size);
+        TRUE(heap->isLocal == (own.types.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT));
+        TRUE(report.budgetsAreTold || (heap->usage == 0 && heap->budget == heap->size));
+    }
+    report.size = 8;
+    IS(INVALID_ARGUMENT, surfel_device_memory_report(device, &report), "size 8");
+    IS(INVALID_ARGUMENT, surfel_device_memory_report(NULL, &report), "device is NULL");
     const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
     const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
                                        .colorFormats = &format, .colorFormatCount = 1,

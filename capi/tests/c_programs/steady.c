@@ -55,6 +55,38 @@ static SurfelPreparedScene *upload_updatable(Engine *engine, SurfelRenderer *ren
     return prepared;
 }
 
+/* What passes cost together, and how many there are. */
+typedef struct Cost {
+    unsigned passes, dispatches, draws;
+    double secs;
+    uint64_t invocations, vertices;
+} Cost;
+
+static void on_pass(void *user, const SurfelPassFigures *figures) {
+    Cost *cost = user;
+    TRUE(figures->name[0] != 0 && strlen(figures->name) < 100);
+    cost->passes++;
+    if (figures->secs >= 0) cost->secs += figures->secs;
+    if (figures->invocations != UINT64_MAX) cost->dispatches++, cost->invocations += figures->invocations;
+    if (figures->vertices != UINT64_MAX) cost->draws++, cost->vertices += figures->vertices;
+}
+
+/* Measures a frame that nobody sees. */
+static Cost measure(Engine *engine, SurfelDevice *device, SurfelView *view, SurfelFrame frame, uint32_t measures, double *span) {
+    frame.measures = measures;
+    engine_begin(engine);
+    OK(surfel_view_prepare(view, engine->commands, &frame));
+    engine_begin_rendering(engine, 1);
+    engine_end_rendering(engine);
+    engine_submit(engine);
+    uint64_t epoch;
+    OK(surfel_device_end_epoch(device, &epoch));
+    OK(surfel_device_epoch_done(device, epoch));
+    Cost cost = {0};
+    OK(surfel_view_measured(view, on_pass, &cost, span));
+    return cost;
+}
+
 void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     enum { FRAMES = 20, SETTLED = 12, OF_TWO_CALLS = 6 };
     SurfelPreparedScene *ball = upload(engine, device, renderer, 1);
@@ -93,7 +125,7 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     const double places[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1};
     const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes,
                                .worldFromScene = places, .settings = settings, .sceneCount = 2,
-                               .width = WIDTH, .height = HEIGHT, .refusesMissing = VK_TRUE,
+                               .width = WIDTH, .height = HEIGHT, .refusesMissing = VK_TRUE, .timed = VK_TRUE,
                                .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1},
                                .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
     const SurfelHostImage color = image(&engine->color, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -141,11 +173,18 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
         } else {
             OK(surfel_view_record(view, engine->commands, &frame, colors, 1, &depth));
         }
-        if (number >= SETTLED && taken != before) {
-            printf("frame %d takes %lu pieces from the heap\n", number, taken - before);
+        const unsigned long by_frame = taken - before;
+        engine_submit(engine);
+        const unsigned long before_reading = taken;
+        Cost cost = {0};
+        double span = 0;
+        OK(surfel_view_measured(view, on_pass, &cost, &span));
+        TRUE(cost.passes > 3 && cost.secs > 0 && span > 0 && cost.dispatches == 0);
+        const unsigned long took = by_frame + (taken - before_reading);
+        if (number >= SETTLED && took != 0) {
+            printf("frame %d takes %lu pieces from the heap\n", number, took);
             exit(1);
         }
-        engine_submit(engine);
         uint64_t epoch;
         OK(surfel_device_end_epoch(device, &epoch));
         OK(surfel_device_epoch_done(device, epoch));
@@ -153,6 +192,19 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
         else TRUE(memcmp(by_two_calls, engine->pixels, bytes) == 0);
     }
     TRUE(taken > 100);
+    double span = 0;
+    Cost cost = measure(engine, device, view, frame, SURFEL_MEASURE_COUNTS, &span);
+    TRUE(cost.passes > 3 && cost.dispatches > 2 && cost.invocations > COUNT && cost.secs == 0 && span < 0);
+    cost = measure(engine, device, view, frame, SURFEL_MEASURE_FRAME, &span);
+    TRUE(cost.passes > 3 && cost.dispatches == 0 && cost.secs == 0 && span > 0);
+    cost = measure(engine, device, view, frame, SURFEL_MEASURE_TIMES, NULL);
+    TRUE(cost.secs > 0);
+    IS(INVALID_ARGUMENT, surfel_view_measured(view, NULL, &cost, &span), "each is NULL");
+    SurfelFrame other = frame;
+    other.measures = 4;
+    IS(INVALID_ARGUMENT, surfel_view_prepare(view, engine->commands, &other), "measures is 4");
+    other.measures = 0, other.reservedToo = 1;
+    IS(NEWER_STRUCT, surfel_view_prepare(view, engine->commands, &other), "reserved is 1");
     IS(OPTION, surfel_view_record(view, engine->commands, &frame, none, 1, &depth), "colors: expected an image for each format");
     IS(OPTION, surfel_view_record(view, engine->commands, &frame, colors, 1, NULL), "depth: the view's rendering has one");
     IS(INVALID_ARGUMENT, surfel_view_record(view, engine->commands, &frame, colors, 9, &depth), "colorCount is 9: expected at most 8");

@@ -18,7 +18,7 @@ pub use self::{
     context::{Body, PassContext},
     kept::Kept,
     part::{Part, Runs},
-    profiler::{FrameProfile, PassCounts, PassProfile, Profile, Profiler},
+    profiler::{FrameProfile, PassCounts, PassFigures, PassProfile, Profile, Profiler},
     transients::{Transients, memory_need},
 };
 use super::{Graph, PassKind, Plan, ResourceDesc, ResourceId};

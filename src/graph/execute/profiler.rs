@@ -64,6 +64,19 @@ pub struct PassProfile {
     pub invocations: Option<u64>,
 }
 
+/// The same, by a name that lies where the pass was measured.
+#[derive(Clone, Copy, Debug)]
+pub struct PassFigures<'a> {
+    /// The pass.
+    pub name: &'a str,
+    /// Its time; `None` where not measured.
+    pub secs: Option<f64>,
+    /// Its counts; `None` where not measured, and for a pass that doesn't draw.
+    pub counts: Option<PassCounts>,
+    /// Invocations of its compute stage; `None` where not measured, and for a pass that doesn't dispatch.
+    pub invocations: Option<u64>,
+}
+
 /// What a graphics pass shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PassCounts {
@@ -93,46 +106,62 @@ impl Profiler {
     /// Whatever the driver answers.
     ///
     /// # Safety
-    /// That frame has finished: before it has begun, its queries are not even reset.
+    /// As [`Self::each`].
     pub unsafe fn read(&self) -> Result<FrameProfile> {
-        let measured = (self.passes.len() as u32).min(MAX_PASSES);
-        let (mut secs, mut counts) = (vec![None; self.passes.len()], vec![None; self.passes.len()]);
-        let mut span_secs = None;
-        match &self.queries {
-            Queries::Frame(timestamps) => {
-                // SAFETY: this function's contract: the frame resets them, here and below.
-                if let [begin, end] = unsafe { timestamps.read(2) }?[..] {
-                    span_secs = secs_between(timestamps, begin, end);
+        let mut passes = Vec::with_capacity(self.passes.len());
+        let mut keep = |PassFigures { name, secs, counts, invocations }: PassFigures<'_>| {
+            passes.push(PassProfile { name: name.to_owned(), secs, counts, invocations });
+        };
+        // SAFETY: this function's contract.
+        let span_secs = unsafe { self.each(&mut keep) }?;
+        Ok(FrameProfile { passes, span_secs })
+    }
+
+    /// Tells the figures of the last frame, pass by pass, and answers with its [`FrameProfile::span_secs`]; takes nothing from the heap.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    ///
+    /// # Safety
+    /// That frame has finished: before it has begun, its queries are not even reset.
+    pub unsafe fn each(&self, tell: &mut dyn FnMut(PassFigures<'_>)) -> Result<Option<f64>> {
+        // SAFETY: this function's contract: the frame resets them.
+        let tick = |timestamps: &Timestamps, index: u32| unsafe { timestamps.read(index) };
+        let (begin, mut end) = match &self.queries {
+            Queries::Frame(timestamps) => (tick(timestamps, 0)?, tick(timestamps, 1)?),
+            Queries::Times(timestamps) => (tick(timestamps, 0)?, None),
+            Queries::Counts(_) | Queries::Nothing => (None, None),
+        };
+        let mut before = begin;
+        for ((name, kind), pass) in self.passes.iter().zip(0..) {
+            let (mut secs, mut counted) = (None, None);
+            match &self.queries {
+                Queries::Times(timestamps) if pass < MAX_PASSES => {
+                    end = tick(timestamps, pass + 1)?;
+                    secs = secs_between(timestamps, before, end);
+                    before = end;
                 }
-            }
-            Queries::Times(timestamps) => {
-                // SAFETY: as above.
-                let ticks = unsafe { timestamps.read(measured + 1) }?;
-                for (secs, ends) in secs.iter_mut().zip(ticks.windows(2)) {
-                    *secs = secs_between(timestamps, ends[0], ends[1]);
+                // SAFETY: this function's contract.
+                Queries::Counts(statistics) if pass < MAX_PASSES => {
+                    counted = unsafe { statistics.read(pass) }?;
                 }
-                let (begin, end) = (ticks.first().copied().flatten(), ticks.last().copied().flatten());
-                span_secs = secs_between(timestamps, begin, end);
+                _ => {}
             }
-            Queries::Counts(statistics) => {
-                // SAFETY: as above.
-                let read = unsafe { statistics.read(measured) }?;
-                for (counts, values) in counts.iter_mut().zip(read) {
-                    *counts = values;
-                }
-            }
-            Queries::Nothing => {}
+            tell(PassFigures {
+                name,
+                secs,
+                counts: counted
+                    .filter(|_| *kind == PassKind::Graphics)
+                    .map(|[vertices, fragments, _]| PassCounts { vertices, fragments }),
+                invocations: counted
+                    .filter(|_| *kind == PassKind::Compute)
+                    .map(|[.., invocations]| invocations),
+            });
         }
-        let passes = self.passes.iter().zip(secs).zip(counts);
-        let passes = passes.map(|(((name, kind), secs), counted)| PassProfile {
-            name: name.clone(),
-            secs,
-            counts: counted
-                .filter(|_| *kind == PassKind::Graphics)
-                .map(|[vertices, fragments, _]| PassCounts { vertices, fragments }),
-            invocations: counted.filter(|_| *kind == PassKind::Compute).map(|[.., invocations]| invocations),
-        });
-        Ok(FrameProfile { passes: passes.collect(), span_secs })
+        Ok(match &self.queries {
+            Queries::Frame(timestamps) | Queries::Times(timestamps) => secs_between(timestamps, begin, end),
+            Queries::Counts(_) | Queries::Nothing => None,
+        })
     }
 
     /// # Safety

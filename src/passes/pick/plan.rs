@@ -88,7 +88,7 @@ impl<'a> PickPlan<'a> {
         for (transparent, plan) in [(false, &frame.opaque), (true, &frame.transparent)] {
             let own = draws(Placed::at_home(scene), (&camera, range), &settings, limits);
             let mut splats = arena.growing();
-            splats.extend(own.filter(|draw| draw.chunk.transparent == transparent));
+            splats.extend(own.filter(|draw| draw.chunk.count > 0 && draw.chunk.transparent == transparent));
             as_drawn(&mut splats, plan);
             all.extend_from_slice_copy(&splats);
         }

@@ -66,7 +66,7 @@ fn look_at(
     let balls = Balls::of(quad, eye);
     let [faces_away, faces_eye] = balls.faces(quad, eye);
     let image = balls.image(eye);
-    let (mut seen, mut whole) = (image.seen & ((1 << quad.len) - 1), image.whole);
+    let (mut seen, mut whole) = (image.seen & quad.filled, image.whole);
     if look.culls {
         (seen, whole) = (seen & !faces_away, whole & faces_eye);
     }

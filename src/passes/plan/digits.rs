@@ -48,7 +48,7 @@ fn check_near(scene: &PreparedScene, camera: &Camera) -> Result<()> {
     };
     // A stray point beyond all measure, which is seen as nothing, must not refuse the rest.
     let total = scene.splat_count();
-    let counts = |count: u32| u64::from(count) * STRAYS >= total;
+    let counts = |count: u32| count > 0 && u64::from(count) * STRAYS >= total;
     let splats = scene
         .chunks
         .iter()

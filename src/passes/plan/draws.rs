@@ -229,6 +229,9 @@ pub fn draws<'a, 's>(
                 if chunk.clipped {
                     constants.push((SPEC_CLIPS, 1));
                 }
+                if chunk.sparse {
+                    constants.push((SPEC_SPARSE, 1));
+                }
                 if let Some(levels) = levels {
                     constants.push((SPEC_LEVELS, levels.constant()));
                     constants.extend(levels.blends().then_some((SPEC_BLENDED, 1)));
@@ -238,12 +241,7 @@ pub fn draws<'a, 's>(
         }
     };
     // Where the scene itself is drawn, nothing stands for its splats.
-    scene
-        .chunks
-        .iter()
-        .filter(|chunk| chunk.count > 0)
-        .map(draw)
-        .filter(|draw| draw.levels.is_some() || !draw.chunk.stands_for_others())
+    scene.chunks.iter().map(draw).filter(|draw| draw.levels.is_some() || !draw.chunk.stands_for_others())
 }
 
 /// The splats of a scene themselves, where levels of detail can't be chosen.

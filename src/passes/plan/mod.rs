@@ -130,6 +130,8 @@ impl<'a> FramePlan<'a> {
             let (mut splats, mut meshes) = (arena.growing(), arena.growing());
             for (placed, number) in scenes.iter().zip(0..) {
                 let own = draws(*placed, (camera, range), settings, limits);
+                // What is to come has pipelines ahead.
+                let own = own.filter(|draw| draw.chunk.count > 0 || ahead.is_some());
                 let own = own.filter(|draw| draw.chunk.transparent == transparent);
                 splats.extend(own.map(|draw| draw.of_scene(number)));
                 let own = mesh_draws(*placed, (camera, range), settings);

@@ -22,7 +22,7 @@ impl DepthRange {
         }
         let ends = scenes.iter().flat_map(|Placed { scene, at, .. }| {
             let (camera, scale) = (at.camera(camera), at.scale);
-            let splats = scene.chunks.iter().map(move |chunk| {
+            let splats = scene.chunks.iter().filter(|chunk| chunk.count > 0).map(move |chunk| {
                 let view = chunk.rebase.view_from_local(&camera);
                 (view, chunk.bounds, chunk.largest_radius)
             });

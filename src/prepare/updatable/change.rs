@@ -5,7 +5,6 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::super::{
-    PreparedScene,
     block_tree::{above, distinct},
     chunk::Chunk,
     pack::{self, Packed},
@@ -15,7 +14,7 @@ use crate::{
     error::{Error, Result},
     scene::{Clip, DefectCounts, Shapes, Splats},
     shaders::config::BLOCK_SPLATS,
-    vk::{Copies, Device},
+    vk::Copies,
 };
 
 /// Splats that are between two changed ones and are copied with them, rather than begin a copy of its own.
@@ -28,20 +27,54 @@ const FARTHEST: f64 = 1e18;
 #[derive(Default)]
 pub(crate) struct Changes {
     /// Of each chunk that the change at hand touches, and of more.
-    of_chunks: Vec<Change>,
+    pub(super) of_chunks: Vec<Change>,
     /// How many those of this change are.
-    len: usize,
-    packed: Packed,
-    radii: RadiusCounts,
+    pub(super) len: usize,
+    pub(super) packed: Packed,
+    pub(super) radii: RadiusCounts,
+}
+
+/// What is to be in places of an object.
+#[derive(Clone, Copy)]
+pub(super) enum What<'s> {
+    /// These splats.
+    Splats(&'s Splats),
+    /// So many times nobody.
+    Nobody(u32),
+}
+
+impl What<'_> {
+    pub fn len(self) -> usize {
+        match self {
+            Self::Splats(splats) => splats.len(),
+            Self::Nobody(count) => count as usize,
+        }
+    }
+
+    /// The call that asks for it.
+    pub fn call(self) -> &'static str {
+        match self {
+            Self::Splats(_) => "update",
+            Self::Nobody(_) => "remove",
+        }
+    }
+
+    /// The parts of a splat that are copied: shape and color.
+    fn parts(self) -> std::ops::Range<usize> {
+        match self {
+            Self::Splats(_) => 0..2,
+            Self::Nobody(_) => 0..1,
+        }
+    }
 }
 
 /// What a change writes into a chunk.
 #[derive(Default)]
-struct Change {
+pub(super) struct Change {
     /// The chunk's number.
-    chunk: usize,
+    pub chunk: usize,
     /// Of each splat the number among those that are given, and the place in the chunk, by which they are in order.
-    splats: Vec<[u32; 2]>,
+    pub splats: Vec<[u32; 2]>,
 }
 
 impl Change {
@@ -61,8 +94,8 @@ impl Chunk {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`] for splats of another kind than the chunk's.
-    fn change(&self, first: u32, splats: &Splats, into: &mut Change) -> Result<bool> {
-        let refused = |problem: String| Err(Error::option("update", problem));
+    pub(super) fn change(&self, first: u32, what: What<'_>, into: &mut Change) -> Result<bool> {
+        let refused = |problem: String| Err(Error::option(what.call(), problem));
         let Some(shadow) = &self.shadow else {
             let what = if self.clipped {
                 "clip curves cut its splats"
@@ -71,11 +104,32 @@ impl Chunk {
             };
             return refused(format!("{what}: expected an object of an updatable scene, of whole splats"));
         };
-        let numbers = first..first + splats.len() as u32;
+        let numbers = first..first + what.len() as u32;
         let among = shadow.among(&numbers);
         if among.is_empty() {
             return Ok(false);
         }
+        into.splats.clear();
+        // As many as there can be, so that the next change of as many has room.
+        into.splats.reserve(what.len());
+        match what {
+            What::Splats(splats) => {
+                self.check(first, splats, among)?;
+                into.splats.extend(among.iter().map(|[number, place]| [number - first, *place]));
+            }
+            What::Nobody(_) => {
+                let survey = self.packing();
+                let filled = among.iter().filter(|[_, place]| shadow.is_filled(*place, &survey));
+                into.splats.extend(filled.map(|[number, place]| [number - first, *place]));
+            }
+        }
+        into.splats.sort_unstable_by_key(|[_, place]| *place);
+        Ok(!into.splats.is_empty())
+    }
+
+    /// Refuses splats, from number `first` of the object on, of which some are to be in places of the chunk, and can't.
+    fn check(&self, first: u32, splats: &Splats, among: &[[u32; 2]]) -> Result<()> {
+        let refused = |problem: String| Err(Error::option("update", problem));
         if matches!(splats.shapes, Shapes::Ellipses { .. }) != self.ellipses {
             let (is, expected) = if self.ellipses { ("disks", "ellipses") } else { ("ellipses", "disks") };
             return refused(format!("{is}: expected {expected}, as the object has"));
@@ -105,33 +159,30 @@ impl Chunk {
             };
             return refused(format!("splat {number}: {problem}"));
         }
-        into.splats.clear();
-        // As many as there can be, so that the next change of as many has room.
-        into.splats.reserve(splats.len());
-        into.splats.extend(among.iter().map(|[number, place]| [number - first, *place]));
-        into.splats.sort_unstable_by_key(|[_, place]| *place);
-        Ok(true)
+        Ok(())
     }
 
     /// Bytes of what a change copies.
-    fn bytes_of(&self, change: &Change) -> u64 {
-        let survey = self.packing();
-        let each = (survey.shape_bytes() + survey.color_bytes()) as u64;
+    pub(super) fn bytes_of(&self, change: &Change, what: What<'_>) -> u64 {
+        let each: u64 = self.bytes_each[what.parts()].iter().sum();
         change.runs().map(|run| u64::from(run.end - run.start) * each).sum()
     }
 
     /// Changes what is known of it, and copies what has changed, where it is on a device.
-    fn apply(
+    pub(super) fn apply(
         &mut self,
-        (change, splats): (&Change, &Splats),
+        (change, what): (&Change, What<'_>),
         (packed, counts): (&mut Packed, &mut RadiusCounts),
         copies: Option<&mut Copies<'_>>,
     ) {
         let survey = self.packing();
         let Some(shadow) = &mut self.shadow else { return };
-        shadow.put(splats, &change.splats, &survey, packed);
+        match what {
+            What::Splats(splats) => shadow.put(splats, &change.splats, &survey, packed),
+            What::Nobody(_) => change.places().for_each(|place| shadow.empty(place, &survey)),
+        }
         if let (Some(memory), Some(copies)) = (&self.memory, copies) {
-            for (part, each) in self.bytes_each.into_iter().enumerate() {
+            for (part, each) in self.bytes_each.into_iter().enumerate().take(what.parts().end) {
                 for run in change.runs() {
                     let words = shadow.words(run.clone(), &survey)[part];
                     copies.push(&memory.buffers[part], u64::from(run.start) * each, words);
@@ -150,85 +201,25 @@ impl Chunk {
                 [lo.min(*least), hi.max(*most)]
             });
         self.tree.renew(&self.blocks, &mut shadow.above, touched);
+        if self.sparse {
+            self.count = self.filled_places(&survey);
+        }
+        if self.count == 0 {
+            self.bounds = [DVec3::ZERO; 2];
+        }
         self.largest_radius = self.blocks.iter().map(|block| block.largest_radius).fold(0.0, f64::max);
         counts.clear();
         // Of its block the largest: more than it is, but bounded without a look at all.
-        self.blocks.iter().for_each(|block| counts.add_several(block.largest_radius, block.count));
+        let places = |first: u32| self.count.saturating_sub(first).min(BLOCK_SPLATS);
+        let firsts = (0..).step_by(BLOCK_SPLATS as usize);
+        // Places that have none count, too: a frame that does not list splats looks at all.
+        self.blocks
+            .iter()
+            .zip(firsts)
+            .for_each(|(block, first)| counts.add_several(block.largest_radius, places(first)));
         self.radii.clear();
         // One a block at most, whichever they are after the next change.
         self.radii.reserve(self.blocks.len());
         self.radii.extend(counts.each_step());
-    }
-}
-
-/// A change that was found and is to be made.
-pub(crate) struct Update<'s> {
-    scene: &'s mut PreparedScene,
-    splats: &'s Splats,
-    bytes: u64,
-}
-
-impl Update<'_> {
-    /// Bytes that are copied to the device.
-    pub fn bytes(&self) -> u64 {
-        self.bytes
-    }
-
-    /// Makes it, with copies for the device where the scene is on one.
-    pub fn apply(self, mut copies: Option<&mut Copies<'_>>) {
-        let PreparedScene { chunks, changes, .. } = self.scene;
-        let Changes { of_chunks, len, packed, radii } = changes;
-        for change in &of_chunks[..*len] {
-            let chunk = &mut chunks[change.chunk];
-            chunk.apply((change, self.splats), (&mut *packed, &mut *radii), copies.as_deref_mut());
-        }
-    }
-}
-
-impl PreparedScene {
-    /// Finds what is to change where splats of an object, from this number on, become these.
-    ///
-    /// # Errors
-    /// As [`crate::renderer::Renderer::update`].
-    pub(crate) fn update<'s>(
-        &'s mut self,
-        device: Option<&Device>,
-        object: usize,
-        first: u32,
-        splats: &'s Splats,
-    ) -> Result<Update<'s>> {
-        let refused = |problem: String| Err(Error::option("update", problem));
-        if device.is_some_and(|device| !self.is_on(device)) {
-            return refused("the scene was prepared for another device".to_owned());
-        }
-        splats.check_lengths().map_err(|problem| Error::option("update", problem))?;
-        if object >= self.objects.len() {
-            return refused(format!("object {object}: the scene has {}", self.objects.len()));
-        }
-        if u32::try_from(splats.len()).ok().and_then(|count| first.checked_add(count)).is_none() {
-            return refused(format!("{} splats from {first} on: expected numbers of 32 bits", splats.len()));
-        }
-        let Self { chunks, changes: Changes { of_chunks, len, .. }, .. } = self;
-        *len = 0;
-        let (mut found, mut bytes) = (0, 0);
-        for (number, chunk) in chunks.iter().enumerate().filter(|(_, chunk)| chunk.object == object) {
-            if *len == of_chunks.len() {
-                of_chunks.push(Change::default());
-            }
-            let change = &mut of_chunks[*len];
-            if chunk.change(first, splats, change)? {
-                change.chunk = number;
-                found += change.splats.len();
-                bytes += chunk.bytes_of(change);
-                *len += 1;
-            }
-        }
-        if found != splats.len() {
-            let (has, of) = (found, splats.len());
-            return refused(format!(
-                "object {object} has {has} of the {of} splats from {first} on: fewer are there, or were left out by the upload"
-            ));
-        }
-        Ok(Update { scene: self, splats, bytes })
     }
 }

@@ -1,9 +1,10 @@
 //! Memory of the host's: all of it comes from there and goes back, and what it refuses is an error after which the next frame works.
 
 use std::{
+    collections::HashMap,
     ptr::NonNull,
     sync::{
-        Arc,
+        Arc, Mutex,
         atomic::{AtomicU32, AtomicUsize, Ordering::Relaxed},
     },
 };
@@ -11,10 +12,11 @@ use std::{
 use ash::vk;
 use surfel::{
     ErrorKind,
-    embed::{Device, HostAllocation, HostMemory, Import, MemoryRequest, MemoryUse, Renderer},
+    embed::{Device, HostAllocation, HostMemory, Import, MemoryInUse, MemoryRequest, MemoryUse, Renderer},
 };
 
-use super::{Engine, REVERSED, faults::frame};
+use super::{Beside, Engine, REVERSED, faults::frame};
+use crate::{common::scenes, memory::ALLOCATIONS};
 
 /// An engine's allocator: each piece a memory object of its own.
 pub(super) struct OfEngine {
@@ -24,6 +26,8 @@ pub(super) struct OfEngine {
     left: AtomicU32,
     asked: AtomicUsize,
     live: AtomicUsize,
+    /// Of each piece how it is used, and its bytes.
+    pieces: Mutex<HashMap<vk::DeviceMemory, (MemoryUse, bool, u64)>>,
 }
 
 const ALL: u32 = u32::MAX;
@@ -38,12 +42,28 @@ impl OfEngine {
             left: AtomicU32::new(ALL),
             asked: AtomicUsize::new(0),
             live: AtomicUsize::new(0),
+            pieces: Mutex::default(),
         })
     }
 
     /// Answers so many requests more, or all.
     pub fn answer(&self, most: Option<u32>) {
         self.left.store(most.unwrap_or(ALL), Relaxed);
+    }
+
+    /// What of it is for what.
+    fn by_use(&self) -> MemoryInUse {
+        let mut all = MemoryInUse::default();
+        for (touched_by, linear, bytes) in self.pieces.lock().unwrap().values() {
+            let part = match (touched_by, linear) {
+                (MemoryUse::Device, true) => &mut all.buffers,
+                (MemoryUse::Device, false) => &mut all.images,
+                (MemoryUse::Upload, _) => &mut all.upload,
+                (MemoryUse::Readback, _) => &mut all.readback,
+            };
+            *part += bytes;
+        }
+        all
     }
 
     /// How many times it was asked.
@@ -80,6 +100,8 @@ unsafe impl HostMemory for OfEngine {
             (memory, visible.then(map).transpose()?)
         };
         self.live.fetch_add(1, Relaxed);
+        let MemoryRequest { touched_by, linear, requirements, .. } = *request;
+        self.pieces.lock().unwrap().insert(memory, (touched_by, linear, requirements.size));
         Ok(HostAllocation {
             memory,
             offset: 0,
@@ -91,6 +113,7 @@ unsafe impl HostMemory for OfEngine {
     fn free(&self, allocation: HostAllocation) {
         assert_eq!(allocation.token, 7);
         self.live.fetch_sub(1, Relaxed);
+        self.pieces.lock().unwrap().remove(&allocation.memory).unwrap();
         // SAFETY: nothing uses it any more.
         unsafe { self.device.free_memory(allocation.memory, None) };
     }
@@ -136,4 +159,70 @@ fn all_memory_is_the_engines_and_what_it_refuses_is_an_error_after_which_the_nex
     assert_eq!(finish(), 0);
     drop(device);
     assert_eq!(engine.said(), [] as [String; 0]);
+}
+
+/// What is told of memory is what the engine gave, of a scene on its way, and of one that is there; of an allocator of ours idle blocks come to it.
+#[test]
+fn memory_is_told_by_what_it_is_for() {
+    crate::common::arm();
+    let engine = Engine::new(REVERSED);
+    let memory = OfEngine::new(&engine);
+    let host = Import { memory: Some(memory.clone()), ..engine.lent() };
+    // SAFETY: all is the engine's own, which goes last.
+    let device = unsafe { Device::import(&host) }.unwrap();
+    let beside = Beside::on(engine, device);
+    let scene = surfel::Scene::from(scenes::sphere(5000, glam::DVec3::ZERO));
+    let told = |beside: &Beside| {
+        let told = beside.device.memory_by_use();
+        assert_eq!(told, memory.by_use());
+        assert_eq!((told.total(), told.idle), (beside.device.memory_held(), 0));
+        assert_eq!(told.total(), beside.device.memory_in_use().0);
+        told
+    };
+    let before = told(&beside);
+    beside.engine.begin();
+    // SAFETY: recording; submitted at once.
+    let prepared = unsafe { beside.renderer.upload(beside.engine.commands, &scene) }.unwrap();
+    let on_its_way = told(&beside);
+    assert!(
+        on_its_way.upload >= before.upload + 5000 * 40 && on_its_way.buffers >= before.buffers + 5000 * 40
+    );
+    beside.engine.begin_rendering(true);
+    beside.engine.end_rendering();
+    beside.submit();
+    let there = told(&beside);
+    println!("{there:?}, of which a scene has {}", prepared.bytes());
+    assert_eq!((there.upload, there.buffers), (before.upload, on_its_way.buffers));
+    drop(prepared);
+    beside.end();
+
+    let beside = Beside::new(REVERSED);
+    let prepared = beside.upload(&scene);
+    let (told, used) = (beside.device.memory_by_use(), beside.device.memory_in_use().0);
+    assert!(told.idle > 0 && told.total() - told.idle == used && told.total() == beside.device.memory_held());
+    drop(prepared);
+    beside.end();
+}
+
+#[test]
+fn heaps_are_those_of_the_device_and_take_nothing_from_the_heap() {
+    let beside = Beside::new(REVERSED);
+    let engine = &beside.engine;
+    // SAFETY: the instance is alive.
+    let properties = unsafe { engine.instance.get_physical_device_memory_properties(engine.physical) };
+    let before = ALLOCATIONS.get();
+    let told = beside.device.memory_heaps();
+    assert_eq!(ALLOCATIONS.get(), before);
+    println!("{:?}", told.heaps());
+    let sizes = properties.memory_heaps_as_slice().iter().map(|heap| heap.size);
+    assert!(
+        told.heaps().iter().map(|heap| heap.size).eq(sizes) && told.heaps().iter().any(|heap| heap.is_local)
+    );
+    for heap in told.heaps() {
+        assert!(
+            0 < heap.budget && heap.budget <= heap.size && heap.usage.is_some() == told.is_told(),
+            "{heap:?}"
+        );
+    }
+    beside.end();
 }

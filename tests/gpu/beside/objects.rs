@@ -6,14 +6,17 @@ use glam::{
 };
 use surfel::{
     Settings,
-    embed::{HostCamera, NO_ID, Placed, Placement, PreparedScene, ViewFrame},
+    embed::{HostCamera, NO_ID, PassFigures, Placed, Placement, PreparedScene, ViewFrame},
     graph::execute::Profile,
     reference::{self, Candidate, Picker},
     scene::{DepthOfHost, Edges, Mesh, MeshObject, Object, Rasterizer, Scene, Shading},
 };
 
 use super::{Beside, FORWARD, REVERSED, SIZE_PX, engine::Style};
-use crate::common::{moves_corners, scenes};
+use crate::{
+    common::{moves_corners, scenes},
+    memory::ALLOCATIONS,
+};
 
 /// Cuts the ball.
 const CORNERS: [DVec3; 3] =
@@ -303,7 +306,19 @@ fn what_is_not_asked_for_takes_no_pass() {
             engine.end_rendering();
             beside.submit();
             // SAFETY: the frame has finished.
-            let passes = unsafe { beside.view.profile() }.unwrap().unwrap().passes;
+            let profile = unsafe { beside.view.profile() }.unwrap().unwrap();
+            let (mut figures, before) = (0, ALLOCATIONS.get());
+            let tell = |pass: PassFigures<'_>| {
+                let other = &profile.passes[figures];
+                assert_eq!((pass.name, pass.secs, pass.counts), (&*other.name, other.secs, other.counts));
+                figures += 1;
+            };
+            // SAFETY: as above.
+            let span_secs = unsafe { beside.view.each_pass(tell) }.unwrap();
+            assert_eq!((figures, ALLOCATIONS.get() - before), (profile.passes.len(), 0));
+            let sum: f64 = profile.passes.iter().map(|pass| pass.secs.unwrap()).sum();
+            assert!(span_secs == profile.span_secs && (sum - span_secs.unwrap()).abs() < 1e-3 * sum, "{sum}");
+            let passes = profile.passes;
             let names: Vec<_> = passes.into_iter().map(|pass| pass.name).collect();
             drop(ball);
             beside.end();

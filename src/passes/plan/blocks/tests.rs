@@ -247,3 +247,52 @@ fn runs_leave_out_no_more_than_their_blocks() {
     }
     assert!(as_wholes > 300 && left_to_device > 100, "{as_wholes} {left_to_device}");
 }
+
+/// Blocks of which all splats were taken out, and those that have none yet, are in no run; others are as before.
+#[test]
+fn blocks_of_nothing_are_not_looked_at() {
+    use crate::{
+        passes::plan::{draws::draws, range::DepthRange},
+        prepare::{Placed, prepare_without_device},
+        scene::{Colors, Object, Room, Scene, Settings, Shapes, Splats},
+        vk::Limits,
+    };
+    let wall = |count: u32| {
+        let positions: Vec<_> = (0..count).map(|i| DVec3::new(1e-4 * f64::from(i), 0.0, 0.0)).collect();
+        let shapes =
+            Shapes::Disks { normals: vec![glam::Vec3::Z; count as usize], radii: vec![0.01; count as usize] };
+        Splats::new(positions, shapes, Colors::Uniform([1.0; 4]))
+    };
+    let objects = vec![Object { name: "wall".to_owned(), splats: wall(4096), closed: false }];
+    let rooms = vec![Some(Room { splats: 1024, ..Room::default() })];
+    let scene = Scene { objects, updatable: true, rooms, ..Scene::default() };
+    let mut seen = prepare_without_device(&Limits::plain(), &scene).unwrap();
+    let listed = |seen: &crate::prepare::PreparedScene| {
+        let arena = Arena::new();
+        let camera =
+            Camera { eye: DVec3::new(0.2, 0.0, 3.0), target: DVec3::new(0.2, 0.0, 0.0), ..Camera::default() };
+        let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
+        let limits = Limits::plain();
+        let how = (&camera, DepthRange::default());
+        let all = draws(Placed::at_home(seen), how, &settings, &limits);
+        let of = |draw: crate::passes::plan::draws::Draw<'_>| {
+            let every: Vec<u32> = (0..1000).collect();
+            let runs = draw.closer_runs(&arena, draw.potentially_visible_runs(&arena), Closer::Cut(&every));
+            runs.iter().map(|run| [run.blocks, run.count]).collect::<Vec<_>>()
+        };
+        all.map(of).collect::<Vec<_>>()
+    };
+    let sum = |runs: &[[u32; 2]]| runs.iter().fold([0; 2], |[b, c], [blocks, count]| [b + blocks, c + count]);
+    assert_eq!(listed(&seen).iter().map(|runs| sum(runs)).collect::<Vec<_>>(), [[16, 4096], [0, 0]]);
+    // Four blocks below one of the next level, and one elsewhere.
+    for numbers in [1024..2048, 3072..3328] {
+        seen.remove(None, 0, numbers).unwrap().apply(None);
+    }
+    let [own, room] = &listed(&seen)[..] else { panic!("two chunks") };
+    assert_eq!((sum(own)[1], sum(room)), (4096 - 1280, [0, 0]));
+    println!("{own:?}");
+    assert!(sum(own)[0] == 11, "no block that has nothing: {own:?}");
+    let splats = wall(300);
+    seen.append(None, 0, &splats).unwrap().0.apply(None);
+    assert_eq!(sum(&listed(&seen)[1]), [2, 300]);
+}
