@@ -241,7 +241,7 @@ fn against_the_truth(headless: &mut Headless, hard: &Hard) -> [f64; 2] {
     [(sums[0] / counts[0]).sqrt(), (sums[1] / counts[1]).sqrt()]
 }
 
-/// A fifth of the error at silhouettes, whatever the size of splats, and a third of all.
+/// Less than a seventh of the error at silhouettes, whatever the size of splats, and of all. With sums that are stretched everywhere it is a sixth.
 #[test]
 fn silhouettes_are_several_times_nearer_to_the_truth_than_hard_ones() {
     let mut headless = shared();
@@ -252,7 +252,7 @@ fn silhouettes_are_several_times_nearer_to_the_truth_than_hard_ones() {
         let [covering, crisp] = [Edges::Coverage, Edges::Hard]
             .map(|edges| against_the_truth(&mut headless, &with(&hard, |settings| settings.edges = edges)));
         println!("{count} splats, {side_px} px: {covering:.4?}, hard {crisp:.4?}");
-        assert!(4.0 * covering[0] < crisp[0] && 3.0 * covering[1] < crisp[1], "{covering:?} {crisp:?}");
+        assert!(7.0 * covering[0] < crisp[0] && 7.0 * covering[1] < crisp[1], "{covering:?} {crisp:?}");
     }
 }
 
