@@ -17,7 +17,7 @@ layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D layers; // alph
 
 // One of several dispatches, for loops have an end on llvmpipe (tile/work.glsl): light, depth and weight go on in images.
 layout(constant_id = SPEC_SEVERAL) const bool SEVERAL = false;
-layout(set = 0, binding = BIND_NORMALS) writeonly uniform image2D peeled; // depth and weight of the layer before
+layout(set = 0, binding = BIND_NORMALS) writeonly uniform image2D peeled; // depth and weight of the layer before, and depth of the last one that faces away
 layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D layers_before;
 layout(set = 0, binding = BIND_NORMALS_BEFORE) uniform texture2D peeled_before;
 
@@ -34,6 +34,7 @@ void main()
             light[row] = texelFetch(layers_before, pixel, 0);
             before[row] = texelFetch(peeled_before, pixel, 0).r;
             weight_before[row] = texelFetch(peeled_before, pixel, 0).g;
+            before_away[row] = texelFetch(peeled_before, pixel, 0).b;
         }
     }
     // Of several dispatches, those after the last layer have nothing to do.
@@ -42,6 +43,7 @@ void main()
         do {
             begin_surface();
             see(range);
+            end_seeing();
             sum(range, false);
             compose();
             layer++;
@@ -49,13 +51,15 @@ void main()
     }
     if (push.blends_rest != 0) {
         begin_surface();
+        takes_both_sides = true;
+        end_seeing();
         sum(range, true);
         compose_rest();
     }
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         imageStore(layers, pixel_of(row), light[row]);
         if (SEVERAL) {
-            imageStore(peeled, pixel_of(row), vec4(before[row], weight_before[row], 0.0, 0.0));
+            imageStore(peeled, pixel_of(row), vec4(before[row], weight_before[row], before_away[row], 0.0));
         }
     }
 }

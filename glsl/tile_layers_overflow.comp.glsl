@@ -36,9 +36,11 @@ void main()
             light[row] = state[place];
             before[row] = state[place + 1].x;
             weight_before[row] = state[place + 1].y;
+            before_away[row] = state[place + 1].w;
         }
         if (push.step == STEP_SUM || push.step == STEP_SEE && goes_on) {
-            visible[row] = state[place + 1].z;
+            visible_away[row] = state[place + 1].z < 0.0;
+            visible[row] = abs(state[place + 1].z);
         }
         if (push.step != STEP_SEE && goes_on) {
             colors[row] = state[place + 2];
@@ -51,6 +53,8 @@ void main()
     if (push.step == STEP_SEE) {
         see(range);
     } else {
+        end_seeing();
+        takes_both_sides = push.step == STEP_REST;
         sum(range, push.step == STEP_REST);
     }
     if (push.step == STEP_SUM && push.ends != 0) {
@@ -62,7 +66,7 @@ void main()
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         uint place = place_of_state(row);
         state[place] = light[row];
-        state[place + 1] = vec4(before[row], weight_before[row], visible[row], 0.0);
+        state[place + 1] = vec4(before[row], weight_before[row], visible_away[row] ? -visible[row] : visible[row], before_away[row]);
         state[place + 2] = colors[row];
         state[place + 3] = normals[row];
         imageStore(layers, pixel_of(row), light[row]);

@@ -15,13 +15,13 @@ layout(constant_id = SPEC_STACKED) const bool STACKED = false; // as in layer.fr
 // Of the invocation's pixels.
 vec4 light[ROWS];          // alpha * linear color, alpha
 float weight_before[ROWS]; // of the layer before
-float opaque[ROWS];        // the depth of opaque things
 
 void begin_layers()
 {
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         light[row] = vec4(0.0);
         before[row] = INFINITELY_NEAR;
+        before_away[row] = INFINITELY_NEAR;
         weight_before[row] = 0.0;
         opaque[row] = DEPTH_PRELOADED ? texelFetch(opaque_depth, pixel_within_image(row), 0).r : 0.0;
     }
@@ -30,10 +30,19 @@ void begin_layers()
 void begin_surface()
 {
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-        visible[row] = opaque[row];
+        visible[row] = 0.0;
+        visible_away[row] = false;
         begin_covering(row);
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
+    }
+}
+
+// What was seen is not behind opaque things.
+void end_seeing()
+{
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        visible[row] = max(visible[row], opaque[row]);
     }
 }
 
@@ -55,7 +64,9 @@ void compose()
         vec3 shown = shaded(albedo, turned(normal, v), v);
         alpha *= COVERAGE_EDGES ? opacity_of(facing_of(normals[row].xyz, weight, v), row) : 1.0;
         light[row] = covered ? under(light[row], vec4(alpha * shown, alpha)) : light[row];
-        before[row] = covered ? visible[row] : NOTHING_LEFT;
+        bool away = BY_SIDES && visible_away[row];
+        before_away[row] = !covered ? NOTHING_LEFT : away ? visible[row] : before_away[row];
+        before[row] = !covered ? NOTHING_LEFT : away ? before[row] : visible[row];
         weight_before[row] = weight;
     }
 }
@@ -84,7 +95,7 @@ bool is_left()
 {
     bool left = false;
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-        left = left || before[row] > NOTHING_LEFT;
+        left = left || before[row] > NOTHING_LEFT || BY_SIDES && before_away[row] > NOTHING_LEFT;
     }
     return votes_of_tile(left).y > 0;
 }

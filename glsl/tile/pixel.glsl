@@ -3,7 +3,8 @@
 //
 // TWO_SIDED: where edges are covered in part, epsilon is many radii of a slanted splat (inc/mapping.glsl), and would take both sides of a
 // plate, a leaf or a wall for one surface. So a surface is of one side: of splats that face the eye or of those that face away, as the one
-// whose shifted depth is nearest. What faces the other way is left for the next surface.
+// whose shifted depth is nearest. What faces the other way is left for the next surface. So are layers: at the rim of something closed both sides are within
+// an epsilon, and have colors of their own.
 //
 // A splat's own depth is the same expression in both, which nothing may contract (src/shaders/build/exact.rs).
 
@@ -12,8 +13,9 @@ layout(constant_id = SPEC_WITH_POLYGONS) const bool WITH_POLYGONS = false;
 // The paper's transition shifts for all fragments, not only where there are polygons: the polygons' test is the only one.
 layout(constant_id = SPEC_SHIFTED_FOR_ALL) const bool SHIFTED_FOR_ALL = false;
 
-// Surfaces are of one side; what leaves sums to others takes all.
-const bool BY_SIDES = PEELS && TWO_SIDED && !OF_LAYERS;
+// Surfaces are of one side; what leaves sums to others takes all, and so does the last layer.
+const bool BY_SIDES = PEELS && TWO_SIDED;
+bool takes_both_sides = false;
 
 const float INFINITELY_NEAR = 2.0; // nearer than any depth, which is 1 at most
 const float NOTHING_LEFT = 0.0;    // no depth is below
@@ -23,6 +25,7 @@ float visible[ROWS]; // depth of the surface, shifted by epsilon
 float before[ROWS];  // PEELS: depth of the layer before
 bool visible_away[ROWS];  // BY_SIDES: the surface faces away; `before` is of those that do not,
 float before_away[ROWS]; // and this is of those that do
+float opaque[ROWS];  // OF_LAYERS: depth of opaque things
 float polygon[ROWS]; // WITH_POLYGONS: depth of polygons, or of splats, where those are nearer
 vec4 colors[ROWS];   // weighted color, weight
 vec4 normals[ROWS];  // weighted normal; OF_LAYERS: weighted alpha; WITH_DEPTH: weighted depth
@@ -109,7 +112,7 @@ void see(Splat splat, Column column, float kept, int row)
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
     bool away = is_away(splat);
-    bool inside = covers(uvw, depth, away, kept, row);
+    bool inside = covers(uvw, depth, away, kept, row) && (!OF_LAYERS || depth >= opaque[row]);
     float behind = shifted(depth, shift_of(splat));
     if (BY_SIDES) {
         visible_away[row] = inside && behind > visible[row] ? away : visible_away[row];
@@ -136,7 +139,7 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
     bool away = is_away(splat);
-    bool inside = covers(uvw, depth, away, kept, row) && (!BY_SIDES || away == visible_away[row]);
+    bool inside = covers(uvw, depth, away, kept, row) && (!BY_SIDES || takes_both_sides || away == visible_away[row]);
     if (WITH_POLYGONS) {
         inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
             && depth >= FORMULA(FORMULA_TOWARD_VIEWER, shifted(polygon[row], column.toward));

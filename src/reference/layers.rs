@@ -76,13 +76,8 @@ impl Stack {
     }
 }
 
-/// Takes the nearest layer out of `remaining`: all that is not behind the smallest shifted depth. The second value is the
-/// smallest margin of that; the fragment whose shifted depth it is has none.
-fn take_nearest(remaining: &mut Vec<Translucent>) -> (Vec<Translucent>, f64) {
-    take_nearest_side(remaining, &|_| false)
-}
-
-/// The same of the side that the fragment with the smallest shifted depth shows: of what shows the other one, nothing is taken.
+/// Takes the nearest layer out of `remaining`: all that is not behind the smallest shifted depth, of the side that the fragment shows whose depth it is; of
+/// what shows the other one, nothing is taken. The second value is the smallest margin of that; that fragment has none.
 pub(super) fn take_nearest_side(
     remaining: &mut Vec<Translucent>,
     faces_away: &dyn Fn(&Translucent) -> bool,
@@ -135,7 +130,7 @@ impl Transparent<'_> {
                 let part = if self.covers_in_part { self.covered(&remaining, 1.0) } else { 1.0 };
                 stack.put_behind(Premultiplied { color: part * rest.color, alpha: part * rest.alpha });
             }
-            let (layer, margin) = take_nearest(&mut remaining);
+            let (layer, margin) = self.take_layer(&mut remaining);
             weight_before = Some(weight_of(&layer));
             if stack.layers < surfaces {
                 stack.put_behind(self.surface(ray, &layer));
@@ -144,6 +139,14 @@ impl Transparent<'_> {
             stack.layers += 1;
         }
         stack
+    }
+
+    /// Where edges cover pixels in part, a layer is of one side: at a rim both are within ε, and each has a color of its own.
+    fn take_layer(&self, remaining: &mut Vec<Translucent>) -> (Vec<Translucent>, f64) {
+        take_nearest_side(remaining, &|fragment| match fragment.source {
+            Source::Splat(i) => self.covers_in_part && self.splats[i].faces_away,
+            Source::Triangle(_) => false,
+        })
     }
 
     /// One layer as one surface.

@@ -12,8 +12,8 @@ use surfel::{
     reference::ground_truth,
     renderer::{Headless, Wanted},
     scene::{
-        Camera, Colors, Edges, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshObject, Rasterizer, Settings,
-        Shading, TileInvocations, Transition,
+        Camera, Colors, Edges, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshObject, Rasterizer, Samples,
+        Settings, Shading, TileInvocations, Transition,
     },
     selftest::{light::compare_light, tolerance::LIGHT},
 };
@@ -218,6 +218,26 @@ fn edges_are_hard_where_they_are_asked_for_so_and_where_nothing_widens() {
     // The surface as data has no opacity, nor has the picture beside it.
     let surface = render_as(&mut headless, &balls(5_000), Wanted { surface: true, ..PICTURE });
     assert_eq!(partly_covered(&surface.linear), 0);
+}
+
+/// Both sides of a transparent ball lie within an epsilon at its rim. As one layer, whose normals face sideways, they made dark dots, and were one surface
+/// where there are two.
+#[test]
+fn rims_of_transparent_balls_are_of_two_sides() {
+    let mut headless = shared();
+    let hard = scenes::transparent::spheres();
+    let settings = Settings { size_px: [64; 2], background: None, ..hard.settings.clone() };
+    let truth = Settings { edges: Edges::Hard, samples: Samples(64), ..settings.clone() };
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let [seen, wanted] = [settings, truth].map(|settings| {
+        let settings = Settings { rasterizer: Rasterizer::Compute, ..settings };
+        headless.render(&prepared, &hard.camera, &settings, PICTURE).unwrap().linear
+    });
+    let over_white = |[red, _, _, alpha]: &[f32; 4]| f64::from(alpha * red + 1.0 - alpha);
+    let squares = seen.iter().zip(&wanted).map(|(a, b)| (over_white(a) - over_white(b)).powi(2));
+    let rms = (squares.sum::<f64>() / seen.len() as f64).sqrt();
+    println!("{rms:.4}");
+    assert!(rms < 0.07, "{rms}");
 }
 
 /// How far pictures over white are from the surface itself: RMS of the pixels where it ends, and of all.

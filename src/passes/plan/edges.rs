@@ -25,18 +25,18 @@ impl<'a> SurfacePlan<'a> {
         if !coverage && !transparent {
             return;
         }
-        let two_sided = coverage && !transparent && self.splats.iter().any(|draw| !culls(&draw.variant));
+        let two_sided = coverage && self.splats.iter().any(|draw| !culls(&draw.variant));
         let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());
         let most_layers = self.settings.layers.most();
         let SplatMethod::Tiles(bands) = &mut self.method else { return };
         let of_band = |band: &Band<'a>| {
             let splats = match coverage {
-                true => arena.list(band.splats.iter().map(|draw| with_edges(*draw, two_sided))),
+                true => arena.list(band.splats.iter().map(|draw| with_edges(*draw, two_sided, transparent))),
                 false => band.splats,
             };
             let plan = match lights {
                 None => band.plan.clone().with_edges(two_sided, blended),
-                Some(lights) => band.plan.clone().with_layers(most_layers, lights),
+                Some(lights) => band.plan.clone().with_layers(most_layers, lights, two_sided),
             };
             Band { splats, plan, ..*band }
         };
@@ -48,7 +48,7 @@ impl<'a> SurfacePlan<'a> {
 const NOT_IN_PART: &str = "edges are hard, since some splats are too large, or too many, to cover pixels in part: --samples 8 smooths them";
 
 /// A chunk of splats whose surface covers pixels in part where it ends.
-fn with_edges(mut draw: Draw<'_>, two_sided: bool) -> Draw<'_> {
+fn with_edges(mut draw: Draw<'_>, two_sided: bool, transparent: bool) -> Draw<'_> {
     draw.variant.push((SPEC_COVERAGE_EDGES, 1));
     if draw.chunk.is_sharp {
         draw.variant.push((SPEC_SHARP, 1));
@@ -56,7 +56,7 @@ fn with_edges(mut draw: Draw<'_>, two_sided: bool) -> Draw<'_> {
     if two_sided {
         draw.variant.push((SPEC_TWO_SIDED, 1));
         // Surfaces are of one side: how near the other one is does not matter. Of sharp ones it is not that alone.
-        if !draw.chunk.is_sharp {
+        if !draw.chunk.is_sharp && !transparent {
             draw.variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
         }
     }

@@ -244,11 +244,11 @@ impl TilePlan {
 
     /// The plan for so many layers at most, each of which walks twice, under so many lights: up to 16 layers in one dispatch, or of
     /// more 4 in each. Every step of the last layer's walk is a loop over the lights, too; so is every pixel of a layer, for which
-    /// there is the reserve.
-    pub fn with_layers(self, most: u32, lights: u32) -> Self {
+    /// there is the reserve. `two_sided`: each is of one side.
+    pub fn with_layers(self, most: u32, lights: u32, two_sided: bool) -> Self {
         let layers_at_once = if most <= 16 { most } else { 4 };
         let walk_length = self.walk_length / (1 + lights);
-        Self { layers_at_once, walk_length, part_length: walk_length / layers_at_once, ..self }
+        Self { layers_at_once, walk_length, part_length: walk_length / layers_at_once, two_sided, ..self }
     }
 
     /// Whether a tile may have more splats than one dispatch takes.

@@ -121,7 +121,7 @@ mod tests {
                         Invocations::Columns,
                     )
                     .unwrap();
-                    let plan = plan.with_layers(most, lights);
+                    let plan = plan.with_layers(most, lights, false);
                     let settings =
                         Settings { layers: Layers::Fixed(most), last_layer, ..Settings::default() };
                     let shares: Vec<_> = shares(&settings, &plan).collect();

@@ -28,8 +28,8 @@ use crate::{
 /// Bytes of what is known of an overflow tile between dispatches.
 const STATE_BYTES: u64 = (TILE_WIDTH * MOST_TILE_HEIGHT * STATE_VECTORS * 16) as u64;
 
-/// Depth and weight of the layer before, between dispatches.
-const PEELED_FORMAT: vk::Format = vk::Format::R32G32_SFLOAT;
+/// Depth and weight of the layer before, and the depth of the last one that faces away, between dispatches.
+const PEELED_FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
 /// What depends on the scene beside the splats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
