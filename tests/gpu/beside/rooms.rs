@@ -212,7 +212,7 @@ fn what_is_left_of_much_is_seen() {
     let mut beside = Beside::new(REVERSED);
     // So small that the host knows of whole blocks that they are in the picture.
     let all = ball(DVec3::ZERO, 1.0, false).transformed(&DAffine3::from_scale(DVec3::splat(0.4)));
-    let mut seen = beside.upload(&scene(all.clone(), room(0), false));
+    let mut seen = beside.upload(&scene(all.clone(), room(0), true));
     submit(&beside, |Beside { renderer, engine, .. }| {
         for first in (0..COUNT as u32).step_by(16) {
             let numbers = first + 1..first + 16;
@@ -220,7 +220,7 @@ fn what_is_left_of_much_is_seen() {
             unsafe { renderer.remove(engine.commands, &mut seen, 0, numbers) }.unwrap();
         }
     });
-    let fresh = beside.upload(&scene(some(&all, |i| i % 16 == 0), None, false));
+    let fresh = beside.upload(&scene(some(&all, |i| i % 16 == 0), None, true));
     assert_alike(&mut beside, [&seen, &fresh], &ways(), "each sixteenth");
     drop((seen, fresh));
     beside.end();
