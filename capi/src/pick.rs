@@ -5,7 +5,7 @@ use std::{ffi::c_void, sync::Arc};
 use surfel::{
     Error, Settings,
     ash::vk,
-    embed::{Device, MemoryUse, Placement, Renderer},
+    embed::{MemoryUse, Placement, Renderer},
     frame::FrameSlot,
     passes::{Picked, PickedPart},
     scene::{Camera, Epsilon},
@@ -17,7 +17,7 @@ use crate::{
     frame::{SceneList, SurfelFrame, with_frame},
     handle::{Out, destroy, get},
     renderer::{SurfelPreparedScene, SurfelRenderer},
-    result::{Failure, Result, SurfelResult, guard},
+    result::{Failure, SurfelResult, guard},
     structs::{Struct, SurfelStructureType, read, write},
 };
 
