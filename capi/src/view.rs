@@ -285,7 +285,8 @@ pub unsafe extern "C" fn surfel_view_measured(
 /// A name as C has it, without memory of the heap; none of ours is longer.
 fn in_place(name: &str) -> [u8; 128] {
     let mut bytes = [0; 128];
-    let end = name.floor_char_boundary(bytes.len() - 1);
+    let most = name.len().min(bytes.len() - 1);
+    let end = (0..=most).rev().find(|end| name.is_char_boundary(*end)).unwrap_or(0);
     bytes[..end].copy_from_slice(&name.as_bytes()[..end]);
     bytes
 }

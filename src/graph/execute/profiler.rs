@@ -141,8 +141,8 @@ impl Profiler {
                     secs = secs_between(timestamps, before, end);
                     before = end;
                 }
-                // SAFETY: this function's contract.
                 Queries::Counts(statistics) if pass < MAX_PASSES => {
+                    // SAFETY: this function's contract.
                     counted = unsafe { statistics.read(pass) }?;
                 }
                 _ => {}

@@ -171,7 +171,7 @@ fn what_comes_and_goes_is_seen_as_an_upload_of_what_is_there() {
         let fresh = beside.upload(&scene(joined(one.clone(), &other), None));
         assert_alike(&mut beside, [&seen, &fresh], &ways, &what("both"));
         // Holes in both: single ones, and more than a block.
-        let stays = |i: usize| i % 7 != 0 && !(1000..1800).contains(&i);
+        let stays = |i: usize| !i.is_multiple_of(7) && !(1000..1800).contains(&i);
         remove(&beside, &mut seen, 1000..1800);
         remove(&beside, &mut seen, 5000..5800);
         for i in (0..4000).filter(|i| i % 7 == 0) {
