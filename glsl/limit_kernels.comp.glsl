@@ -18,6 +18,7 @@ vec2 top_px;
 #define PEELS false
 #define OF_LAYERS false
 #include "tile/splat.glsl"
+const bool PARTED = false; // of what covers pixels in part, of which there is nothing here
 #include "tile/pixel.glsl"
 
 layout(constant_id = SPEC_LIMIT_SPLATS) const uint SPLATS = 64; // a multiple of TILE_BATCH

@@ -13,6 +13,7 @@
 //
 // Of what turns away A is a little small: weights end with the kernel, at two standard deviations, and the rims of the last splats stand out of what
 // is whole. t - A over A is 0.225 sqrt(A) (1 - A)^2 within 0.01 for balls and scans whose splats are up to some pixels large (LEFT_OUT).
+// Where curves cut splats off, no rims stand out, and what lies outside of a part is not to be seen more: there A is left as it is.
 //
 // A falls short where one splat covers a pixel alone: at the rim of a large splat k is far below the overlap. There its own
 // part C is a lower bound, of the distance d of the pixel to the rim of the unfiltered ellipse: the normal distribution of
@@ -67,7 +68,7 @@ float edge_opacity(float summed, float own, float facing)
     float inside = surely_inside(facing, EDGE_FACING);
     float whole = mix(1.0, WHOLE_EDGE_SUM, inside);
     float sum = whole * min(summed, 1.0);
-    sum += (1.0 - inside) * LEFT_OUT * sqrt(sum) * (1.0 - sum) * (1.0 - sum);
+    sum += (PARTED ? 0.0 : 1.0 - inside) * LEFT_OUT * sqrt(sum) * (1.0 - sum) * (1.0 - sum);
     float above_half = max(sum - 0.5, 0.0) * (0.5 / (whole - 0.5));
     float opacity = FORMULA(FORMULA_EDGE_OPACITY, max(min(sum, 0.5) + above_half, own) / NEARLY_WHOLE);
     return clamp(opacity, 0.0, 1.0);

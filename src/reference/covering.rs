@@ -14,7 +14,7 @@ use super::fragment::Fragment;
 use super::front::Front;
 use super::layers::{Source, Translucent, take_nearest_side};
 use super::splat::DrawnSplat;
-use crate::scene::{MeshObject, Opacity, Scene, Settings, Transition};
+use crate::scene::{MeshObject, Object, Opacity, Scene, Settings, Transition};
 
 /// The most surfaces of a pixel.
 const MOST_SURFACES: usize = 3;
@@ -44,6 +44,12 @@ pub(super) fn covers_in_part(scene: &Scene, settings: &Settings, opacity: Opacit
     settings.covers_in_part() && !beside_polygons
 }
 
+/// What sums miss where a surface ends by turning away, of what has this opacity: nothing where clip curves cut off some of it, since no rims stand out there.
+pub(super) fn left_out(scene: &Scene, opacity: Opacity) -> f64 {
+    let cuts = |object: &Object| object.splats.colors.opacity() == opacity && !object.splats.clips.is_empty();
+    if scene.objects.iter().any(cuts) { 0.0 } else { LEFT_OUT }
+}
+
 /// What a splat covers of pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Covering {
@@ -53,6 +59,8 @@ pub(super) struct Covering {
     pub minor_px: f64,
     /// The filter's radius in pixels.
     pub h_px: f64,
+    /// [`left_out`] of all that is drawn with it.
+    pub left_out: f64,
 }
 
 impl Covering {
@@ -96,11 +104,11 @@ pub(super) fn inside_factor(facing: f64, size_px: f64) -> f64 {
 }
 
 /// Of a sum over the overlap, and of what disks cover by themselves, of a surface of this cosine.
-fn whole(sum: f64, alone: f64, facing: f64) -> f64 {
+fn whole(sum: f64, alone: f64, facing: f64, left_out: f64) -> f64 {
     let inside = surely_inside(facing, MAY_END);
     let whole = 1.0 - inside + inside * WHOLE_SUM;
     let a = whole * sum.min(1.0);
-    let sum = a + (1.0 - inside) * LEFT_OUT * a.sqrt() * (1.0 - a).powi(2);
+    let sum = a + (1.0 - inside) * left_out * a.sqrt() * (1.0 - a).powi(2);
     let part = if sum < 0.5 { sum } else { 0.5 + 0.5 * (sum - 0.5) / (whole - 0.5) };
     (part.max(alone) / NEARLY_WHOLE).min(1.0)
 }
@@ -112,6 +120,7 @@ fn whole(sum: f64, alone: f64, facing: f64) -> f64 {
 ///
 /// `facing`: the cosine between the ray and the mean of the normals.
 fn opacity(parts: &[Part], facing: f64) -> f64 {
+    let left_out = parts.first().map_or(0.0, |part| part.covering.left_out);
     let sum = |which: &dyn Fn(&Part) -> bool| -> f64 {
         parts.iter().filter(|part| which(part)).map(|part| part.covering.share * part.kernel).sum()
     };
@@ -119,7 +128,7 @@ fn opacity(parts: &[Part], facing: f64) -> f64 {
         let gaps = parts.iter().filter(|part| which(part)).map(|part| part.covering.alone(part.r2));
         1.0 - gaps.map(|alone| 1.0 - alone.clamp(0.0, 1.0)).product::<f64>()
     };
-    let without_curves = |which: &dyn Fn(&Part) -> bool| whole(sum(which), alone(which), facing);
+    let without_curves = |which: &dyn Fn(&Part) -> bool| whole(sum(which), alone(which), facing, left_out);
     let cut = |part: &Part| part.kept.filter(|kept| kept.part < 1.0);
     let toward = [0, 1, 2, 3].map(|quarter| {
         let toward = parts.iter().filter_map(cut).filter(|kept| kept.toward == quarter);

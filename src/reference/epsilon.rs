@@ -1,7 +1,7 @@
 //! How far behind the nearest splat others belong to one surface, for each splat by itself.
 
 use super::near_surfaces::shares;
-use crate::scene::{Epsilon, Opacity, Scene, Settings, SplatFormat};
+use crate::scene::{Epsilon, Object, Opacity, Scene, Settings, SplatFormat};
 
 /// The rule for the splats of an object.
 pub(super) enum EpsilonRule {
@@ -46,4 +46,24 @@ impl EpsilonRule {
             Self::Radii(radii, shares) => radii * thickness * shares.as_ref().map_or(1.0, |shares| shares[i]),
         }
     }
+}
+
+/// The ε of transparent polygons, which have no radius: with one in radii the mean of transparent splats, of all that can
+/// be drawn; 0 where there is none.
+pub(super) fn mean_epsilon(scene: &Scene, epsilon: Epsilon) -> f64 {
+    let factor = match epsilon {
+        Epsilon::Length(length) => return length,
+        Epsilon::Radii(factor) => factor,
+        Epsilon::Auto => 2.0,
+    };
+    let (mut sum, mut count) = (0.0, 0_u64);
+    let transparent =
+        scene.objects.iter().filter(|object| object.splats.colors.opacity() == Opacity::Transparent);
+    for Object { splats, .. } in transparent {
+        for i in (0..splats.len()).filter(|&i| splats.defect(i).is_none()) {
+            sum += splats.major_radius(i);
+            count += 1;
+        }
+    }
+    if count > 0 { factor * sum / count as f64 } else { 0.0 }
 }

@@ -182,7 +182,7 @@ fn frame<'a>(scene: &Scene, view: View, settings: &'a Settings, splats: Vec<Draw
         transparent_splats: drawn_splats(transparent),
         transparent_triangles: drawn_triangles(triangles.transparent),
         has_opaque_polygons: triangles.has_opaque,
-        polygon_epsilon: splat::mean_epsilon(scene, settings.epsilon),
+        polygon_epsilon: epsilon::mean_epsilon(scene, settings.epsilon),
         layers_cover_in_part: covering::covers_in_part(scene, settings, Opacity::Transparent),
         background: background(settings),
     }

@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use super::affine::ImageEllipse;
-use super::covering::{Covering, covers_in_part, inside_factor};
+use super::covering::{Covering, covers_in_part, inside_factor, left_out};
 use super::drawn_clip::DrawnClip;
 use super::epsilon::{EpsilonRule, polygon_reach};
 use super::ewa::Stretched;
@@ -18,7 +18,7 @@ use super::surface::Attributes;
 use super::tangents::tangents;
 use super::view::View;
 use crate::scene::{
-    Backfaces, DefectCounts, Epsilon, Filter, FilterWeight, Object, Opacity, Rasterizer, Scene, Settings,
+    Backfaces, DefectCounts, Filter, FilterWeight, Object, Opacity, Rasterizer, Scene, Settings,
 };
 
 /// A splat in view space. A point of it is `center + u·s + v·t`.
@@ -112,38 +112,26 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
             false => evened(&object.splats, overlaps(&object.splats, settings.kernel)),
         });
         let rule = EpsilonRule::of(scene, number, settings, opacity);
+        let left_out = left_out(scene, opacity);
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
             if defect.is_none() && opacity != Opacity::Invisible {
                 let overlap = overlaps.as_ref().map(|overlaps| overlaps[i]);
-                let splat = prepare_one(object, i, (cull, opacity, overlap), (&rule, reach), view, settings);
+                let splat = prepare_one(
+                    object,
+                    i,
+                    (cull, opacity, overlap, left_out),
+                    (&rule, reach),
+                    view,
+                    settings,
+                );
                 let transparent = opacity == Opacity::Transparent;
                 drawn.extend(splat.map(|splat| DrawnSplat { source: [number, i], transparent, ..splat }));
             }
         }
     }
     (drawn, defects)
-}
-
-/// The ε of transparent polygons, which have no radius: with one in radii the mean of transparent splats, of all that can
-/// be drawn; 0 where there is none.
-pub(super) fn mean_epsilon(scene: &Scene, epsilon: Epsilon) -> f64 {
-    let factor = match epsilon {
-        Epsilon::Length(length) => return length,
-        Epsilon::Radii(factor) => factor,
-        Epsilon::Auto => 2.0,
-    };
-    let (mut sum, mut count) = (0.0, 0_u64);
-    let transparent =
-        scene.objects.iter().filter(|object| object.splats.colors.opacity() == Opacity::Transparent);
-    for Object { splats, .. } in transparent {
-        for i in (0..splats.len()).filter(|&i| splats.defect(i).is_none()) {
-            sum += splats.major_radius(i);
-            count += 1;
-        }
-    }
-    if count > 0 { factor * sum / count as f64 } else { 0.0 }
 }
 
 /// Whether what faces away is not drawn. Through a transparent surface its far side is seen.
@@ -161,7 +149,7 @@ pub(super) fn culls(settings: &Settings, closed: bool, opacity: Opacity) -> bool
 fn prepare_one(
     object: &Object,
     i: usize,
-    (cull, opacity, overlap): (bool, Opacity, Option<f64>),
+    (cull, opacity, overlap, left_out): (bool, Opacity, Option<f64>, f64),
     (rule, polygon_reach): (&EpsilonRule, f64),
     view: &View,
     settings: &Settings,
@@ -268,6 +256,7 @@ fn prepare_one(
             share: area / overlap,
             minor_px: view.focal_px * minor,
             h_px: view.focal_px * h,
+            left_out,
         }),
         least_weight: settings.floors().weight,
         low_pass,

@@ -204,8 +204,7 @@ fn nothing_sticks_out_of_a_part_and_nothing_is_seen_through_it() {
         let [mut outside, mut holes, mut inside] = [0; 3];
         for (i, seen) in seen.iter().enumerate() {
             let (x, y) = (i as i64 % i64::from(width), i as i64 / i64::from(width));
-            // What reaches a pixel by its rim alone counts for what its weight leaves out there, too.
-            outside += usize::from(*seen > 0.04 && around(x, y).all(|mask| mask == 0.0));
+            outside += usize::from(*seen > 0.02 && around(x, y).all(|mask| mask == 0.0));
             let is_inside = around(x, y).all(|mask| mask == 1.0);
             holes += usize::from(is_inside && *seen < 0.7);
             inside += usize::from(is_inside);

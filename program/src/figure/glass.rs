@@ -6,7 +6,7 @@ use surfel::{
     load::builtin::{checkerboard, relief, sphere},
     math::srgb::linear_from_srgb,
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Epsilon, LastLayer, Layers, Object, Scene, Settings},
+    scene::{Accumulate, Camera, Edges, Epsilon, LastLayer, Layers, Object, Scene, Settings},
 };
 
 use super::{
@@ -79,6 +79,8 @@ fn settings(size_px: [u32; 2], epsilon: f64, layers: Layers, last_layer: LastLay
         layers,
         last_layer,
         accumulate: Accumulate::F32,
+        // The paper's: what is seen at a rim is one surface.
+        edges: Edges::Hard,
         ..Settings::default()
     }
 }

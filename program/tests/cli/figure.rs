@@ -177,8 +177,7 @@ fn g6_six_layers_are_all_and_three_are_not() {
     let [a, b, c] = [&six, &dropped, &blended].map(|panel| panel.distance(&all));
     let between = dropped.distance(&blended);
     println!("from all: six {a:.4}, dropped {b:.4}, blended {c:.4}; dropped from blended {between:.4}");
-    // Layers are of one side: where rims cross, few pixels have a seventh one.
-    assert!(a < 0.03 * b && b > 0.02 && c < 0.95 * b && between > 2e-3);
+    assert!(a < 0.01 * b && b > 0.02 && c < 0.95 * b && between > 2e-3);
 }
 
 #[test]
@@ -287,8 +286,7 @@ fn i9_curves_leave_the_outline_of_the_mesh() {
     };
     let [uncut, lines, curves] = [1, 2, 3].map(|i| off(&panels[i]));
     println!("pixels off the outline: {uncut}, lines {lines}, curves {curves}");
-    // Within two pixels in a hundred: sums at outlines that turn away are neither's.
-    assert!(3 * curves < uncut && 50 * curves <= 51 * lines, "{uncut}, {lines}, {curves}");
+    assert!(3 * curves < uncut && curves <= lines, "{uncut}, {lines}, {curves}");
 }
 
 /// The part of each panel that shows something.
