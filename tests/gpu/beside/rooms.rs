@@ -2,32 +2,18 @@
 
 use std::collections::VecDeque;
 
-use glam::{
-    DAffine3, DVec3,
-    dcamera::rh::{proj::directx, view::look_at_mat4},
-};
+use glam::{DAffine3, DVec3, dcamera::rh::view::look_at_mat4};
 use surfel::{
     Settings,
-    embed::{HostCamera, MissingPipelines, Placed, PreparedScene, Rendering, ViewFrame},
+    embed::{MissingPipelines, Placed, PreparedScene, Rendering, ViewFrame},
     scene::{Colors, Cull, Edges, Epsilon, Rasterizer, Room, Scene, Shading, Shapes, Splats},
 };
 
-use super::{Beside, COLOR_FORMAT, REVERSED, SIZE_PX, Style};
+use super::{
+    Beside, COLOR_FORMAT, REVERSED, SIZE_PX, Style,
+    updates::{BEHIND, COUNT, camera},
+};
 use crate::{common::scenes, memory::ALLOCATIONS};
-
-const BEHIND: [DVec3; 3] =
-    [DVec3::new(-90.0, -60.0, -30.0), DVec3::new(90.0, -60.0, -30.0), DVec3::new(0.0, 90.0, -30.0)];
-
-/// Of a ball, and of another beside it.
-const COUNT: usize = 4000;
-
-fn camera() -> HostCamera {
-    HostCamera {
-        view_from_world: look_at_mat4(DVec3::new(0.4, 0.9, 6.0), DVec3::ZERO, DVec3::Y),
-        clip_from_view: directx::perspective_infinite_reverse(0.7, 160.0 / 120.0, 0.5),
-        flips_y: true,
-    }
-}
 
 fn settings(rasterizer: Rasterizer) -> Settings {
     Settings {

@@ -13,12 +13,12 @@ use surfel::{
 use super::{Beside, REVERSED, SIZE_PX};
 use crate::common::scenes;
 
-const BEHIND: [DVec3; 3] =
+pub(super) const BEHIND: [DVec3; 3] =
     [DVec3::new(-90.0, -60.0, -30.0), DVec3::new(90.0, -60.0, -30.0), DVec3::new(0.0, 90.0, -30.0)];
 
-const COUNT: usize = 4000;
+pub(super) const COUNT: usize = 4000;
 
-fn camera() -> HostCamera {
+pub(super) fn camera() -> HostCamera {
     HostCamera {
         view_from_world: look_at_mat4(DVec3::new(0.4, 0.9, 6.0), DVec3::ZERO, DVec3::Y),
         clip_from_view: directx::perspective_infinite_reverse(0.7, 160.0 / 120.0, 0.5),
