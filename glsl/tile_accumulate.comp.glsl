@@ -35,6 +35,14 @@ layout(set = 0, binding = BIND_POLYGON_DEPTH) uniform texture2D polygon_depth; /
 layout(constant_id = SPEC_DEPTH_PRELOADED) const bool DEPTH_PRELOADED = false; // the graphics pipeline has drawn splats
 layout(set = 0, binding = BIND_DEPTH_BEFORE) uniform texture2D depth_before;
 
+// Edges are covered in part: below the sums of colors of all overflow tiles is what covers their pixels (tile/covering.glsl): fall, gap, and sum.
+const bool COVERS = COVERAGE_EDGES && IN_SLOTS;
+
+ivec2 place_of_covering(int row)
+{
+    return pixel_in_slot(row) + ivec2(0, imageSize(color_sums).y / 2);
+}
+
 // Where images have what a pixel of the tile has.
 ivec2 stored_at(int row)
 {
@@ -57,8 +65,13 @@ void load(bool goes_on)
             normals[row] = texelFetch(normal_sums_before, place, 0);
         }
         begin_covering(row);
-        summed[row] = normals[row].w;
-        uncut[row].x = normals[row].w;
+        if (COVERS && SUMS && goes_on) {
+            vec4 covering = texelFetch(color_sums_before, place_of_covering(row), 0);
+            fall[row] = covering.xy;
+            gap[row] = covering.z;
+            summed[row] = covering.w;
+            uncut[row] = covering.wz;
+        }
         polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel, 0).r : 0.0;
     }
 }
@@ -95,8 +108,8 @@ void main()
     if (SUMS) {
         sum(unhidden(range), false);
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-            if (COVERAGE_EDGES && !WITH_DEPTH) {
-                normals[row].w = covering_sum(facing_of(normals[row].xyz, colors[row].w, to_eye(top_px + vec2(0.0, float(first_row + row)))), row);
+            if (COVERS) {
+                imageStore(color_sums, place_of_covering(row), vec4(fall[row], gap[row], covering_sum(row)));
             }
             if (HALF_FLOATS) {
                 fit_half_floats(row);

@@ -45,6 +45,11 @@ void main()
         if (push.step != STEP_SEE && goes_on) {
             colors[row] = state[place + 2];
             normals[row] = state[place + 3];
+            if (COVERAGE_EDGES) {
+                fall[row] = state[place + 4].xy;
+                gap[row] = state[place + 4].z;
+                summed[row] = state[place + 4].w;
+            }
         }
     }
     if (!is_left()) {
@@ -69,6 +74,9 @@ void main()
         state[place + 1] = vec4(before[row], weight_before[row], visible_away[row] ? -visible[row] : visible[row], before_away[row]);
         state[place + 2] = colors[row];
         state[place + 3] = normals[row];
+        if (COVERAGE_EDGES) {
+            state[place + 4] = vec4(fall[row], gap[row], summed[row]);
+        }
         imageStore(layers, pixel_of(row), light[row]);
     }
 }

@@ -13,7 +13,6 @@
 #include "tile/rect.glsl"
 #include "tile/corners.glsl"
 #include "tile/cut.glsl"
-#include "inc/inside.glsl"
 #define PLANES_SET 1
 #define PLANES_BINDING BIND_PLANES
 #include "inc/planes.glsl"
@@ -23,7 +22,7 @@
 
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
 layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
-layout(constant_id = SPEC_SHARP) const bool SHARP = false;
+layout(constant_id = SPEC_SHARP) const bool SHARP = false; // and edges are covered in part
 layout(constant_id = SPEC_LISTED) const bool LISTED = false; // of inc/list.glsl, records of which lie one behind the other
 
 layout(local_size_x = PROJECT_GROUP_SIZE) in;
@@ -52,12 +51,13 @@ bool find_splat(out uint index, out uint place)
     return index < frame.splat_count;
 }
 
-// What weights are multiplied by, so that sums are whole inside of a surface (inc/edges.glsl).
-float factor_of_edges(Mapping m, vec4 uv)
+// What weights of a sharp surface are multiplied by, so that its sums are whole inside (inc/edges.glsl).
+float sum_of_sharp(Mapping m)
 {
     vec3 ray = ray_through(m.p);
     float facing = abs(dot(m.normal, ray)) / length(ray);
-    return inside_factor(facing, uv) * (SHARP ? mix(1.0, SHARP_SUM, surely_inside(facing, EDGE_FACING)) : 1.0);
+    float x = clamp(facing / SHARP_FACING - 1.0, 0.0, 1.0);
+    return mix(1.0, SHARP_SUM, x * x * (3.0 - 2.0 * x));
 }
 
 bool is_beyond_planes(Mapping m)
@@ -126,8 +126,7 @@ void main()
     float w0 = map.at_x0.z;
     float uv_scale = map.affine ? 1.0 : 1.0 / w0;
     float share = share_of(m) * own_weight(index);
-    vec4 uv = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
-    share *= COVERAGE_EDGES ? factor_of_edges(m, uv) : 1.0;
+    share *= SHARP ? sum_of_sharp(m) : 1.0;
     float blended = BLENDED ? weight_of_level(index) : 1.0;
     share *= blended;
     if (BLENDED) {
@@ -153,7 +152,7 @@ void main()
     }
     float signed_shift = TWO_SIDED && m.faces_away ? -m.shift : m.shift;
     records0[place] = vec4(map.x0_px, CLIPS ? -w0 : w0, signed_shift);
-    records1[place] = uv;
+    records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
     records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);
     records3[place] = uvec4(floatBitsToUint(normal.yz), color);
     if (CLIPS) {

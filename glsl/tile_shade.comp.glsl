@@ -60,16 +60,19 @@ vec4 polygon_behind(int row)
     return WITH_POLYGONS ? texelFetch(shown_before, pixel_within_image(row), 0) : vec4(0.0);
 }
 
-// Surface after surface, until each pixel of the tile is covered or nothing is left: what lies side by side in a pixel adds up.
+// Surface after surface, until each pixel of the tile is covered or nothing is left: what lies side by side in a pixel adds up. But what ends toward the
+// same side as what is before it lies behind that, as the far side of a plate does, and is seen only where it reaches further.
 void shade_edges(Range range)
 {
     vec4 light[ROWS];
     float nearest_polygon[ROWS];
     float hiding[ROWS]; // depth of what covers half of a pixel, for transparent layers
+    vec2 ended[ROWS];   // how what covers falls (tile/covering.glsl)
     float own[ROWS];    // WITH_DEPTH: the same, not shifted; where nothing covers as much, of what is nearest
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         light[row] = vec4(0.0);
         hiding[row] = 0.0;
+        ended[row] = vec2(0.0);
         own[row] = 0.0;
         before[row] = INFINITELY_NEAR;
         before_away[row] = INFINITELY_NEAR;
@@ -100,14 +103,17 @@ void shade_edges(Range range)
                 color = mix(color, shaded(beyond.albedo, beyond.normal, v), share_beyond(row));
                 surface.weight += beyond.weight;
             }
-            vec3 normal_sum = CREASES ? normals[row].xyz + normals_beyond[row].xyz : normals[row].xyz;
-            float opacity = opacity_of(facing_of(normal_sum, surface.weight, v), row);
+            float opacity = opacity_of(row);
             bool beside = nearest_polygon[row] > visible[row];
             if (WITH_POLYGONS && beside) {
                 // The polygon is the nearest surface; splats of the same one blend with it (inc/resolve.glsl).
                 opacity = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight / WHOLE_SEAM_SUM), 1.0);
             }
-            float part = surface.weight > 0.0 ? min(opacity, 1.0 - light[row].a) : 0.0;
+            float behind = max(dot(fall[row], ended[row]), 0.0) / max(max(dot(fall[row], fall[row]), dot(ended[row], ended[row])), 1e-12);
+            behind = WITH_POLYGONS && beside ? 0.0 : behind;
+            ended[row] += (1.0 - behind) * fall[row];
+            float part = mix(min(opacity, 1.0 - light[row].a), max(opacity - light[row].a, 0.0), behind);
+            part = surface.weight > 0.0 ? part : 0.0;
             bool covers_half = light[row].a < 0.5 && light[row].a + part >= 0.5;
             hiding[row] = covers_half ? visible[row] : hiding[row];
             if (WITH_DEPTH) {

@@ -43,8 +43,8 @@ void main()
     }
     float opacity = 1.0;
     if (COVERAGE_EDGES) {
-        float sum = WEIGHTED || WITH_DEPTH ? surface.weight : normal_sum.w;
-        opacity = edge_opacity(sum, 0.0, facing_of(normal_sum.xyz, surface.weight, v));
+        vec4 covering = texelFetch(color_sums, in_slot + ivec2(0, textureSize(color_sums, 0).y / 2), 0); // as tile_accumulate.comp.glsl leaves it
+        opacity = edge_opacity(covering.w, 1.0 - covering.z, length(covering.xy));
     }
     imageStore(shown, pixel_of(0), surface.weight > 0.0 ? opacity * vec4(light, 1.0) : vec4(0.0));
 }

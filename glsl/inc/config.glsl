@@ -213,7 +213,7 @@
 #define RECT_CHUNK 4294959104 // From this rect on they stand for no tiles but for a chunk each; the last one, all ones, for nothing.
 #define MOST_TILES_SHIFT 14    // Where splats are projected: from this bit on of what tells a chunk's number, how many tiles a splat touches at most.
 #define SLOTS_IN_ROW 256      // Tiles in a row of an image that holds overflow tiles alone.
-#define STATE_VECTORS 4       // Vectors of four floats that are kept of a pixel of an overflow tile's layers.
+#define STATE_VECTORS 5       // Vectors of four floats that are kept of a pixel of an overflow tile's layers.
 #define WHOLE_TILES 2147483647 // The part of a dispatch that does whole tiles and leaves the overflow tiles out.
 
 // Steps of a layer of overflow tiles.
@@ -258,9 +258,8 @@
 #define MOST_EDGE_SURFACES 3        // Opaque surfaces behind each other that a pixel shows at their edges, at most.
 #define EDGE_LENGTHENING 16.0       // Of a slanted splat's epsilon where edges are covered in part (`inc/mapping.glsl`).
 #define SHARP_SUM 1.7               // Of a sharp surface that faces the eye, whose sums vary: what weights over the overlap are multiplied by (`inc/edges.glsl`).
-#define EDGE_FACING 0.3             // Cosine between normal and ray: below it a surface may end by turning away, above twice that it does not (`inc/edges.glsl`).
-#define EDGE_BEND 0.12              // The square of that cosine of a splat whose image has a pixel: by so much surfaces bend within their splats.
-#define WHOLE_EDGE_SUM 0.79         // From this sum over the overlap on a pixel is covered by a surface that faces the eye.
-#define WHOLE_SEAM_SUM 0.5          // From this sum on, splats hide the polygons of the same surface: at a seam half of a surface's are there.
+#define SHARP_FACING 0.3            // From this cosine between the normal and the ray on more and more, up to twice that.
+#define WHOLE_EDGE_SUM 0.79         // From this sum over the overlap on a pixel is covered, unless the surface ends there.
+#define WHOLE_SEAM_SUM 0.4          // From this sum on, splats hide the polygons of the same surface: at a seam half of a surface's are there.
 #define EYE_DOME_STRENGTH 0.7         // How much darker eye-dome lighting makes a slope of 1 all around, as an exponent.
 #define MOST_STACKED_SURFACES 8.0   // Surfaces that the last layer counts as, at most: a rim before it would count it as a thousand.

@@ -8,10 +8,13 @@
 // pixel, under the filter, that the surface covers. So slivers near a silhouette, each of which covers little, cover a
 // pixel together.
 //
-// Sums inside of a surface vary still: splats that are surely inside count more (inc/inside.glsl). What ends without turning away, as a border does, can't
-// be told from what is inside: there the sum is taken as it is up to one half, and stretched above, so that it is whole from WHOLE_EDGE_SUM on.
+// Sums inside of a surface vary still, by an eighth and more where splats are larger than the filter, and what is behind would show through. So A is taken
+// for what it is where the surface ends, and stretched above one half elsewhere, so that it is whole from WHOLE_EDGE_SUM on. How steeply A falls tells
+// which: at the border of a half plane A = Phi(d / (sigma h)), d the distance in pixels, and falls by phi(Phi^-1(A)) / (sigma h) a pixel, which is
+// A (1 - A) (2.15 - 2.2 A (1 - A)) over sigma h within 0.01. Inside A falls by a fifth of that, mostly. Where little is missing, noise may be as steep:
+// from A = 0.95 on it counts as whole.
 //
-// Of what turns away A is a little small: weights end with the kernel, at two standard deviations, and the rims of the last splats stand out of what
+// Of what ends A is a little small: weights end with the kernel, at two standard deviations, and the rims of the last splats stand out of what
 // is whole. t - A over A is 0.225 sqrt(A) (1 - A)^2 within 0.01 for balls and scans whose splats are up to some pixels large (LEFT_OUT).
 // Where curves cut splats off, no rims stand out, and what lies outside of a part is not to be seen more: there A is left as it is.
 //
@@ -25,14 +28,13 @@
 //
 // Sharp surfaces are made of ellipses through the corners of triangles, slivers among them: at the corners of a flat side, and at its ridges, where
 // nothing lies beyond, A is a half of its mean, and less. There the curves tell what is covered (inc/clip_image.glsl), so that A may be too much: it is
-// SHARP_SUM times as much where the surface faces the eye.
+// SHARP_SUM times as much where the surface faces the eye, and not where it ends by turning away.
 //
 // Limits: surfaces of which several lie within a few epsilon; A of a thin line of splats is too
 // small.
 
-#include "inc/inside.glsl"
-
 const float ROOT_TWO_PI = 2.5066283;
+const float LN_2 = 0.69314718;
 
 layout(constant_id = SPEC_FILTER_PX) const float FILTER_PX = 1.41421356; // h; the filter's own sigma is 1/2
 
@@ -56,20 +58,23 @@ vec2 own_coverage(vec4 uv)
     return vec2(0.5 * sureness + slope * rho2, slope);
 }
 
-// Of a surface whose normals have this sum. Normals that cancel, of both sides of a rim, face nobody.
-float facing_of(vec3 normal_sum, float weight, vec3 v)
+// From 0 at x = 0 to 1 at 1.
+float smooth_step(float x)
 {
-    return weight > 0.0 ? min(abs(dot(normal_sum, v)) / weight, 1.0) : 0.0;
+    x = clamp(x, 0.0, 1.0);
+    return x * x * (3.0 - 2.0 * x);
 }
 
-// `summed`: A with the factors of its splats. `own`: C. `facing`: the cosine between normal and ray, of the mean normal.
-float edge_opacity(float summed, float own, float facing)
+// `summed`: A. `own`: C. `fall`: by how much A falls a pixel, over twice the decline of the kernel's logarithm at the center (kernel.glsl).
+float edge_opacity(float summed, float own, float fall)
 {
-    float inside = surely_inside(facing, EDGE_FACING);
-    float whole = mix(1.0, WHOLE_EDGE_SUM, inside);
-    float sum = whole * min(summed, 1.0);
-    sum += (PARTED ? 0.0 : 1.0 - inside) * LEFT_OUT * sqrt(sum) * (1.0 - sum) * (1.0 - sum);
-    float above_half = max(sum - 0.5, 0.0) * (0.5 / (whole - 0.5));
-    float opacity = FORMULA(FORMULA_EDGE_OPACITY, max(min(sum, 0.5) + above_half, own) / NEARLY_WHOLE);
+    float sum = min(summed, 1.0);
+    float left = sum * (1.0 - sum);
+    float steepest = left * (2.15 - 2.2 * left);
+    float steep = LN_2 * KERNEL_A * FILTER_PX * fall; // over sigma h, of which sigma is 1/2
+    float ends = smooth_step((steep - 0.35 * steepest) / max(0.4 * steepest, 1e-6)) * smooth_step((0.95 - sum) * 10.0);
+    float stretched = min(sum, 0.5) + max(sum - 0.5, 0.0) * (0.5 / (WHOLE_EDGE_SUM - 0.5));
+    float at_end = sum + (PARTED ? 0.0 : LEFT_OUT) * sqrt(sum) * (1.0 - sum) * (1.0 - sum);
+    float opacity = FORMULA(FORMULA_EDGE_OPACITY, max(mix(stretched, at_end, ends), own) / NEARLY_WHOLE);
     return clamp(opacity, 0.0, 1.0);
 }

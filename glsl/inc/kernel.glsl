@@ -11,3 +11,14 @@ float kernel_weight(float r2)
     }
     return exp2(-FORMULA(FORMULA_KERNEL, KERNEL_A) * r2);
 }
+
+// By how much the weight's logarithm declines as r^2 grows, over KERNEL_A ln 2. Next to the rim of psi_e, where it has no end, the weight is none.
+float kernel_decline(float r2)
+{
+    if (KERNEL == KERNEL_PSI_E) {
+        float q = pow(max(r2, 1e-30), 0.5 * KERNEL_N);
+        float left = max(1.0 - q, 1e-3);
+        return 0.5 * KERNEL_N * q / (max(r2, 1e-30) * left * left);
+    }
+    return 1.0;
+}

@@ -6,6 +6,7 @@
 #include "inc/edges.glsl"
 
 float summed[ROWS];       // the sum of weights over the overlap; where splats are WEIGHTED and not clipped, that of colors
+vec2 fall[ROWS];          // by how much the sum falls a pixel along x and y (edge_opacity)
 float gap[ROWS];          // what disks by themselves leave uncovered
 vec2 uncut[ROWS];         // CUTS: the same sum and gap of splats that no curve cuts in the pixel
 vec4 kept_toward[ROWS];   // CUTS: of others the largest part that curves leave, by the direction in which they keep
@@ -13,16 +14,18 @@ vec4 kept_toward[ROWS];   // CUTS: of others the largest part that curves leave,
 void begin_covering(int row)
 {
     summed[row] = 0.0;
+    fall[row] = vec2(0.0);
     gap[row] = 1.0;
     uncut[row] = vec2(0.0, 1.0);
     kept_toward[row] = vec4(0.0);
 }
 
-// `weight`: over the overlap, as if nothing were cut off. `part`: what the splat covers by itself. `kept`: what curves leave (tile/clip.glsl).
-void cover(float weight, float part, float kept, int row)
+// `weight`: over the overlap, as if nothing were cut off. `falls`: by how much it falls a pixel. `part`: what the splat covers by itself. `kept`: what curves leave (tile/clip.glsl).
+void cover(float weight, vec2 falls, float part, float kept, int row)
 {
     float left = 1.0 - clamp(part, 0.0, 1.0);
     gap[row] *= left;
+    fall[row] += falls;
     if (CUTS || !WEIGHTED) {
         summed[row] += weight;
     }
@@ -37,22 +40,22 @@ void cover(float weight, float part, float kept, int row)
 
 // Of what the surface would cover, what curves leave. Opposite directions are both sides of a ridge, and neighbors may be one side whose curves
 // differ a little: those of two of four that are not opposite count once, by whichever pairs leave less.
-float kept_part(float facing, int row)
+float kept_part(int row)
 {
     vec4 toward = kept_toward[row];
     vec4 pairs = max(toward, toward.yzwx);
     float kept = min(pairs.x + pairs.z, pairs.y + pairs.w);
-    return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y, facing)), 1.0) : 1.0;
+    return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y, 0.0)), 1.0) : 1.0;
 }
 
 // The sum of weights alone, for whoever finds the opacity from it.
-float covering_sum(float facing, int row)
+float covering_sum(int row)
 {
-    return kept_part(facing, row) * summed[row];
+    return kept_part(row) * (CUTS || !WEIGHTED ? summed[row] : colors[row].w);
 }
 
-// The part of the pixel that the surface covers. `facing`: facing_of() it.
-float opacity_of(float facing, int row)
+// The part of the pixel that the surface covers.
+float opacity_of(int row)
 {
-    return kept_part(facing, row) * edge_opacity(CUTS || !WEIGHTED ? summed[row] : colors[row].w, 1.0 - gap[row], facing);
+    return kept_part(row) * edge_opacity(CUTS || !WEIGHTED ? summed[row] : colors[row].w, 1.0 - gap[row], length(fall[row]));
 }

@@ -62,7 +62,7 @@ void compose()
         vec3 albedo = FORMULA(FORMULA_NORMALIZED_COLOR, colors[row].rgb / weight);
         float alpha = normals[row].w / weight;
         vec3 shown = shaded(albedo, turned(normal, v), v);
-        alpha *= COVERAGE_EDGES ? opacity_of(facing_of(normals[row].xyz, weight, v), row) : 1.0;
+        alpha *= COVERAGE_EDGES ? opacity_of(row) : 1.0;
         light[row] = covered ? under(light[row], vec4(alpha * shown, alpha)) : light[row];
         bool away = BY_SIDES && visible_away[row];
         before_away[row] = !covered ? NOTHING_LEFT : away ? visible[row] : before_away[row];
@@ -80,11 +80,10 @@ void compose_rest()
         bool covered = weighted_alpha > 0.0 && weight > 0.0;
         float alpha = min(weighted_alpha / weight, 1.0);
         if (STACKED) {
-            float whole = COVERAGE_EDGES ? 1.0 / WHOLE_EDGE_SUM : 1.0; // the sum of one surface inside (inc/inside.glsl)
-            float surfaces = clamp(weight / max(weight_before[row], whole), 1.0, MOST_STACKED_SURFACES);
+            float surfaces = clamp(weight / max(weight_before[row], 1.0), 1.0, MOST_STACKED_SURFACES);
             alpha = 1.0 - pow(1.0 - alpha, FORMULA(FORMULA_STACKED, surfaces));
         }
-        alpha *= COVERAGE_EDGES ? opacity_of(1.0, row) : 1.0;
+        alpha *= COVERAGE_EDGES ? opacity_of(row) : 1.0;
         vec4 layer = vec4(alpha * (colors[row].rgb / weighted_alpha), alpha);
         light[row] = covered ? under(light[row], layer) : light[row];
     }

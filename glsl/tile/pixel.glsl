@@ -146,7 +146,8 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     } else {
         inside = inside && depth >= visible[row];
     }
-    float r2 = r2_of(uvw);
+    float inverse_w2 = COVERAGE_EDGES && !AFFINE ? 1.0 / (uvw.z * uvw.z) : 1.0;
+    float r2 = COVERAGE_EDGES ? dot(uvw.xy, uvw.xy) * inverse_w2 : r2_of(uvw);
     float kernel = kernel_weight(r2);
     float shared_weight = max(kernel * attributes.share, LEAST_WEIGHT);
     float weight = inside ? (WEIGHTED ? shared_weight : kernel) : 0.0;
@@ -155,7 +156,10 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     }
     if (COVERAGE_EDGES) {
         float part = attributes.own_part.x - attributes.own_part.y * r2;
-        cover(inside ? shared_weight : 0.0, inside ? part : 0.0, inside ? kept : 1.0, row);
+        // Half of how r^2 changes a pixel, by the map as it is at the splat's center.
+        vec2 change = splat.uv.xy * uvw.x + splat.uv.zw * uvw.y;
+        float covering = inside ? shared_weight : 0.0;
+        cover(covering, covering * kernel_decline(r2) * inverse_w2 * change, inside ? part : 0.0, inside ? kept : 1.0, row);
     }
     bool beyond = CREASES && is_beyond(kept);
     if (CREASES) {

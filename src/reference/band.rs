@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::covering;
 use super::front::Front;
-use super::kernel::{limit_r2, weight};
+use super::kernel::{decline, limit_r2, weight};
 use super::layers::{Source, Translucent, Transparent};
 use super::picture::Pixel;
 use super::polygons;
@@ -187,6 +187,7 @@ fn translucent(
         z_shifted: fragment.z * splat.shift,
         weight: fragment.weight,
         kernel: weight(kernel, r2),
+        fall: decline(kernel, r2) * splat.change_of_r2(ray, &frame.view),
         r2,
         kept: splat.kept(ray, fragment.z, &frame.view),
         source: Source::Splat(splat_index),

@@ -5,7 +5,7 @@
 //! where its weight is far below that: there its own part counts, that of a half plane at the distance of the rim. All fragments of a pixel
 //! are at hand here, and surfaces are groups of them (`layers`).
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::band::Frame;
 use super::creases::CreasedSums;
@@ -19,23 +19,17 @@ use crate::scene::{MeshObject, Object, Opacity, Scene, Settings, Transition};
 /// The most surfaces of a pixel.
 const MOST_SURFACES: usize = 3;
 
-/// From this sum on a pixel is covered by a surface that faces the eye; sums of a whole surface are not all 1.
-pub(super) const WHOLE_SUM: f64 = 0.79;
+/// From this sum on a pixel is covered, unless the surface ends there; sums of a whole surface are not all 1.
+const WHOLE_SUM: f64 = 0.79;
 
-/// Below this cosine between normal and ray a surface may end by turning away, above twice that it does not.
-const MAY_END: f64 = 0.3;
-
-/// The square of that cosine of a splat whose image is a pixel large, if it is less.
-const BEND: f64 = 0.12;
-
-/// What weights that end at the rims of splats miss of a surface that ends by turning away: this times √A (1 - A)².
+/// What weights that end at the rims of splats miss of a surface that ends: this times √A (1 - A)².
 const LEFT_OUT: f64 = 0.225;
 
 /// What is covered to all but so little is covered.
 const NEARLY_WHOLE: f64 = 0.96;
 
 /// From this sum on, splats hide polygons of the same surface: at a seam half of a whole surface's splats are there.
-const WHOLE_SEAM_SUM: f64 = 0.5;
+const WHOLE_SEAM_SUM: f64 = 0.4;
 
 /// Whether surfaces cover pixels in part: all that is opaque, and what is transparent where there are no polygons in its layers.
 pub(super) fn covers_in_part(scene: &Scene, settings: &Settings, opacity: Opacity) -> bool {
@@ -44,7 +38,7 @@ pub(super) fn covers_in_part(scene: &Scene, settings: &Settings, opacity: Opacit
     settings.covers_in_part() && !beside_polygons
 }
 
-/// What sums miss where a surface ends by turning away, of what has this opacity: nothing where clip curves cut off some of it, since no rims stand out there.
+/// What sums miss where a surface ends, of what has this opacity: nothing where clip curves cut off some of it, since no rims stand out there.
 pub(super) fn left_out(scene: &Scene, opacity: Opacity) -> f64 {
     let cuts = |object: &Object| object.splats.colors.opacity() == opacity && !object.splats.clips.is_empty();
     if scene.objects.iter().any(cuts) { 0.0 } else { LEFT_OUT }
@@ -77,50 +71,43 @@ impl Covering {
     }
 }
 
-/// A splat's part of a surface in a pixel: the kernel's value, the squared radius, and what clip curves leave.
+/// A splat's part of a surface in a pixel: the kernel's value, by how much it falls a pixel, the squared radius, and what clip curves leave.
 struct Part<'a> {
     covering: &'a Covering,
     kernel: f64,
+    fall: DVec2,
     r2: f64,
     kept: Option<Kept>,
 }
 
 /// From 0 at `x` = 0 to 1 at 1.
-fn smooth_step(x: f64) -> f64 {
+pub(super) fn smooth_step(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }
 
-/// How surely a surface does not end where its normal and the ray have the cosine `facing`, if it may end up to `may_end`.
-pub(super) fn surely_inside(facing: f64, may_end: f64) -> f64 {
-    smooth_step((facing - may_end) / may_end)
-}
-
-/// How many times weights of a splat count, by how surely it is not at a silhouette. `size_px`: the root of the sum of the squares of its
-/// image's semi-axes.
-pub(super) fn inside_factor(facing: f64, size_px: f64) -> f64 {
-    let surely = surely_inside(facing, (BEND / size_px).sqrt().min(MAY_END));
-    1.0 - surely + surely / WHOLE_SUM
-}
-
-/// Of a sum over the overlap, and of what disks cover by themselves, of a surface of this cosine.
-fn whole(sum: f64, alone: f64, facing: f64, left_out: f64) -> f64 {
-    let inside = surely_inside(facing, MAY_END);
-    let whole = 1.0 - inside + inside * WHOLE_SUM;
-    let a = whole * sum.min(1.0);
-    let sum = a + (1.0 - inside) * left_out * a.sqrt() * (1.0 - a).powi(2);
-    let part = if sum < 0.5 { sum } else { 0.5 + 0.5 * (sum - 0.5) / (whole - 0.5) };
-    (part.max(alone) / NEARLY_WHOLE).min(1.0)
+/// Of a sum over the overlap that falls by so much a pixel, and of what disks cover by themselves. `covering`: of any of the splats.
+///
+/// At a border the sum is `A = Φ(d/s)`, at distance d under a Gaussian of standard deviation `s = h/2`, and falls by `φ(Φ⁻¹(A))/s`. What falls as steeply ends
+/// there, and its sum is right; what does not is inside.
+fn whole(sum: f64, fall: f64, alone: f64, covering: &Covering) -> f64 {
+    let a = sum.min(1.0);
+    // φ(Φ⁻¹(A)) is this within 0.01.
+    let steepest = a * (1.0 - a) * (2.15 - 2.2 * a * (1.0 - a));
+    let steep = fall * covering.h_px / 2.0;
+    let ends = if steepest > 0.0 { smooth_step((steep / steepest - 0.35) / 0.4) } else { 0.0 };
+    let ends = ends * smooth_step((0.95 - a) / 0.1);
+    let inside = if a < 0.5 { a } else { 0.5 + 0.5 * (a - 0.5) / (WHOLE_SUM - 0.5) };
+    let at_end = a + covering.left_out * a.sqrt() * (1.0 - a).powi(2);
+    ((inside + ends * (at_end - inside)).max(alone) / NEARLY_WHOLE).min(1.0)
 }
 
 /// The part of a pixel that splats of one surface cover together. What they cover by themselves is taken for independent.
 ///
 /// Up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part; those of both sides
 /// of a ridge leave parts that add up. What no curve cuts in the pixel is left, too.
-///
-/// `facing`: the cosine between the ray and the mean of the normals.
-fn opacity(parts: &[Part], facing: f64) -> f64 {
-    let left_out = parts.first().map_or(0.0, |part| part.covering.left_out);
+fn opacity(parts: &[Part]) -> f64 {
+    let Some(Part { covering, .. }) = parts.first() else { return 0.0 };
     let sum = |which: &dyn Fn(&Part) -> bool| -> f64 {
         parts.iter().filter(|part| which(part)).map(|part| part.covering.share * part.kernel).sum()
     };
@@ -128,7 +115,7 @@ fn opacity(parts: &[Part], facing: f64) -> f64 {
         let gaps = parts.iter().filter(|part| which(part)).map(|part| part.covering.alone(part.r2));
         1.0 - gaps.map(|alone| 1.0 - alone.clamp(0.0, 1.0)).product::<f64>()
     };
-    let without_curves = |which: &dyn Fn(&Part) -> bool| whole(sum(which), alone(which), facing, left_out);
+    let fall: DVec2 = parts.iter().map(|part| part.covering.share * part.fall).sum();
     let cut = |part: &Part| part.kept.filter(|kept| kept.part < 1.0);
     let toward = [0, 1, 2, 3].map(|quarter| {
         let toward = parts.iter().filter_map(cut).filter(|kept| kept.toward == quarter);
@@ -138,9 +125,12 @@ fn opacity(parts: &[Part], facing: f64) -> f64 {
     let pair = |i: usize| f64::max(toward[i], toward[(i + 1) % 4]);
     let kept = match f64::min(pair(0) + pair(2), pair(1) + pair(3)) {
         0.0 => 1.0,
-        kept => kept.max(without_curves(&|part| cut(part).is_none())).min(1.0),
+        kept => {
+            let uncut = |part: &Part| cut(part).is_none();
+            kept.max(whole(sum(&uncut), 0.0, alone(&uncut), covering)).min(1.0)
+        }
     };
-    kept * without_curves(&|_| true)
+    kept * whole(sum(&|_| true), fall.length(), alone(&|_| true), covering)
 }
 
 /// What is opaque in a pixel.
@@ -156,6 +146,7 @@ pub(super) struct Opaque {
 
 /// All opaque surfaces of a pixel, those of splats in front of the polygon, and the polygon. `fragments`: of all opaque splats.
 pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: Vec<Translucent>) -> Opaque {
+    let mut ended = DVec2::ZERO;
     let mut seen =
         Opaque { color: DVec3::ZERO, alpha: 0.0, hides_beyond: f64::INFINITY, margin: f64::INFINITY };
     let polygon_z = front.nearest_polygon.map_or(f64::INFINITY, |polygon| polygon.z);
@@ -194,10 +185,15 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
         let part = match frame.settings.transition {
             Transition::None if beside => 0.0,
             _ if beside => (sums.weight() / WHOLE_SEAM_SUM).min(1.0),
-            _ => covered(&of_surface, splat_of, sums.facing(ray)),
+            _ => covered(&of_surface, splat_of),
         };
         if let Some(color) = sums.color(&frame.shader, ray) {
-            let part = part.min(1.0 - seen.alpha);
+            // What ends toward the same side as what is before it lies behind that, and is seen only where it reaches further.
+            let fall = fall(&of_surface, splat_of);
+            let longest2 = fall.length_squared().max(ended.length_squared());
+            let behind = if beside || longest2 == 0.0 { 0.0 } else { fall.dot(ended).max(0.0) / longest2 };
+            ended += (1.0 - behind) * fall;
+            let part = (1.0 - behind) * part.min(1.0 - seen.alpha) + behind * (part - seen.alpha).max(0.0);
             if seen.alpha < 0.5 && seen.alpha + part >= 0.5 {
                 seen.hides_beyond = nearest;
             }
@@ -219,20 +215,26 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
     seen
 }
 
+/// By how much the sum of fragments of splats falls a pixel.
+fn fall<'a>(fragments: &[&Translucent], splat_of: impl Fn(&Translucent) -> &'a DrawnSplat) -> DVec2 {
+    let share =
+        |fragment: &Translucent| splat_of(fragment).covering.as_ref().map_or(0.0, |covering| covering.share);
+    fragments.iter().map(|fragment| share(fragment) * fragment.fall).sum()
+}
+
 /// [`opacity`] of fragments of splats.
 pub(super) fn covered<'a>(
     fragments: &[&Translucent],
     splat_of: impl Fn(&Translucent) -> &'a DrawnSplat,
-    facing: f64,
 ) -> f64 {
     let parts: Vec<_> = fragments
         .iter()
         .filter_map(|fragment| {
-            let Translucent { kernel, r2, kept, .. } = **fragment;
-            Some(Part { covering: splat_of(fragment).covering.as_ref()?, kernel, r2, kept })
+            let Translucent { kernel, fall, r2, kept, .. } = **fragment;
+            Some(Part { covering: splat_of(fragment).covering.as_ref()?, kernel, fall, r2, kept })
         })
         .collect();
-    opacity(&parts, facing)
+    opacity(&parts)
 }
 
 impl Opaque {

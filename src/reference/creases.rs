@@ -6,7 +6,7 @@ use super::drawn_clip::Kept;
 use super::fragment::Fragment;
 use super::shade::Shader;
 use super::splat::DrawnSplat;
-use super::surface::{Sums, facing};
+use super::surface::Sums;
 
 /// From this part of a pixel on, what curves leave of a splat is on the near side of the ridge, on which all that they do not cut is.
 const HALF: f64 = 0.5;
@@ -47,13 +47,6 @@ impl CreasedSums {
 
     pub fn weight(&self) -> f64 {
         self.here.sums.weight + self.beyond.sums.weight
-    }
-
-    /// The cosine between the ray and the mean of all normals.
-    pub fn facing(&self, ray: DVec3) -> f64 {
-        let sums = [self.here.sums, self.beyond.sums];
-        let normals: DVec3 = sums.iter().map(|sums| sums.normal).sum();
-        facing(normals, self.weight(), ray)
     }
 
     /// Linear and shaded; `None` where nothing was added.

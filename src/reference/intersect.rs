@@ -55,13 +55,39 @@ impl DrawnSplat {
         }
     }
 
+    /// How `r²` changes a pixel along x and y, by the map from the image to the splat as it is at its center; 0 where that can't be seen.
+    pub fn change_of_r2(&self, ray: DVec3, view: &View) -> DVec2 {
+        // Small enough for what curves, and large enough for the digits.
+        let step_px = 1.0 / 64.0;
+        let step = |x: DVec2| (step_px / view.focal_px * x).extend(0.0);
+        let along = |x: DVec2| match &self.map {
+            Map::Projective => {
+                let at_center = self.center / self.center.z;
+                let seen = |ray: DVec3| Some(self.plane_depth(ray, view.near)? * ray);
+                let (here, after, before) =
+                    (seen(ray)?, seen(at_center + step(x))?, seen(at_center - step(x))?);
+                let change = (self.uv(after) - self.uv(before)) / (2.0 * step_px);
+                Some(2.0 * self.uv(here).dot(change) * here.z / self.center.z)
+            }
+            _ => {
+                let r2 = |ray: DVec3| Some(self.hit(ray, view.near)?.r2);
+                Some((r2(ray + step(x))? - r2(ray - step(x))?) / (2.0 * step_px))
+            }
+        };
+        DVec2::new(along(DVec2::X).unwrap_or(0.0), along(DVec2::Y).unwrap_or(0.0))
+    }
+
     /// Solves `[s t p] (u, v, 1)ᵀ = z (x, y, 1)ᵀ` (Guennebaud et al. 2006, eq. 3): the plane first, then u and v in
     /// it.
     fn plane_hit(&self, ray: DVec3, near: f64) -> Option<Hit> {
         let z = self.plane_depth(ray, near)?;
-        let q = z * ray - self.center;
-        let (u, v) = (self.u_axis.dot(q), self.v_axis.dot(q));
-        Some(Hit { z, r2: u * u + v * v })
+        Some(Hit { z, r2: self.uv(z * ray).length_squared() })
+    }
+
+    /// u and v of a point of its plane.
+    fn uv(&self, point: DVec3) -> DVec2 {
+        let q = point - self.center;
+        DVec2::new(self.u_axis.dot(q), self.v_axis.dot(q))
     }
 
     /// The depth at which the ray meets the plane.

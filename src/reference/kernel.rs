@@ -27,6 +27,22 @@ pub(super) fn weight(kernel: Kernel, r2: f64) -> f64 {
     if weight >= SMALLEST_WEIGHT { weight } else { 0.0 }
 }
 
+/// By how much the weight declines as `r2` grows, of what covers: the negative of its derivative.
+pub(super) fn decline(kernel: Kernel, r2: f64) -> f64 {
+    let of_logarithm = match kernel {
+        Kernel::Gaussian { sigma } => 0.5 / f64::from(sigma).powi(2),
+        Kernel::PsiE { a, b: _, n } => {
+            // q/(1−q) grows by q'/(1−q)², and q = (r²)^(n/2) by n/2 · q/r².
+            let (half_n, q) = (0.5 * f64::from(n), r2.sqrt().powf(f64::from(n)));
+            f64::from(a) * half_n * r2.powf(half_n - 1.0) / (1.0 - q).powi(2)
+        }
+    };
+    match weight(kernel, r2) {
+        0.0 => 0.0,
+        weight => weight * of_logarithm,
+    }
+}
+
 /// The largest squared radius that covers: 1, or less where the weight reaches 2⁻²⁴ earlier.
 pub(super) fn limit_r2(kernel: Kernel) -> f64 {
     // exp(−e) = 2⁻²⁴.

@@ -1,15 +1,15 @@
 //! The transparent surfaces of one pixel, one behind the other (Guennebaud, Barthe, Paulin 2006, section 6): all its
 //! fragments are at hand, so that layers are groups of them and no pass repeats.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::covering::{WHOLE_SUM, covered};
+use super::covering::covered;
 use super::decision::Decision;
 use super::drawn_clip::Kept;
 use super::fragment::Fragment;
 use super::shade::Shader;
 use super::splat::DrawnSplat;
-use super::surface::{Attributes, Sums, direction, facing};
+use super::surface::{Attributes, Sums, direction};
 use super::transition::{Premultiplied, Splatted, join};
 use super::triangle::DrawnTriangle;
 use crate::scene::{LastLayer, Settings};
@@ -25,6 +25,8 @@ pub(super) struct Translucent {
     /// Of a splat, the kernel's value, and the squared radius.
     pub kernel: f64,
     pub r2: f64,
+    /// By how much that value falls a pixel along x and y.
+    pub fall: DVec2,
     /// What clip curves leave of it, where it has any.
     pub kept: Option<Kept>,
     pub source: Source,
@@ -114,8 +116,6 @@ impl Transparent<'_> {
             LastLayer::Drop => (most, false),
             LastLayer::Blend | LastLayer::Stack => (most - 1, true),
         };
-        // The sum of one surface, where it does not end.
-        let whole = if self.covers_in_part { 1.0 / WHOLE_SUM } else { 1.0 };
         let mut weight_before = None;
         let mut stack = Stack::EMPTY;
         while !remaining.is_empty() {
@@ -123,11 +123,11 @@ impl Transparent<'_> {
                 let blended = self.blend(ray, &remaining);
                 let rest = match (self.settings.last_layer, weight_before) {
                     (LastLayer::Stack, Some(before)) => {
-                        stacked(blended, weight_of(&remaining) / f64::max(before, whole))
+                        stacked(blended, weight_of(&remaining) / f64::max(before, 1.0))
                     }
                     _ => blended,
                 };
-                let part = if self.covers_in_part { self.covered(&remaining, 1.0) } else { 1.0 };
+                let part = if self.covers_in_part { self.covered(&remaining) } else { 1.0 };
                 stack.put_behind(Premultiplied { color: part * rest.color, alpha: part * rest.alpha });
             }
             let (layer, margin) = self.take_layer(&mut remaining);
@@ -168,20 +168,20 @@ impl Transparent<'_> {
         let shade = |attributes: &Attributes| self.shader.shade(attributes.albedo, attributes.normal, ray);
         if self.covers_in_part {
             let Some(splats) = splats else { return Premultiplied::NONE };
-            let alpha = splats.attributes.alpha * self.covered(layer, facing(sums.normal, sums.weight, ray));
+            let alpha = splats.attributes.alpha * self.covered(layer);
             return Premultiplied { color: alpha * shade(&splats.attributes), alpha };
         }
         let polygons = mean(&polygons).map(|polygon| turned(polygon, ray));
         join(self.settings.transition, splats, polygons, shade)
     }
 
-    /// The part of the pixel that they cover; of several surfaces at once, `facing` is 1.
-    fn covered(&self, fragments: &[Translucent], facing: f64) -> f64 {
+    /// The part of the pixel that they cover.
+    fn covered(&self, fragments: &[Translucent]) -> f64 {
         let splat_of = |fragment: &Translucent| match fragment.source {
             Source::Splat(i) => &self.splats[i],
             Source::Triangle(_) => unreachable!("edges beside polygons in layers are hard"),
         };
-        covered(&fragments.iter().collect::<Vec<_>>(), splat_of, facing)
+        covered(&fragments.iter().collect::<Vec<_>>(), splat_of)
     }
 
     /// All fragments at once, each lit by itself, as the last layer: `C = Σ wα·shade / Σ wα`, `α = Σ wα / Σ w`, whose

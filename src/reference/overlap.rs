@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::clip::removes;
-use super::covering::surely_inside;
+use super::covering::smooth_step;
 use super::kernel::{limit_r2, weight};
 use super::tangents::tangents;
 use crate::scene::{Clip, ClipTest, Kernel, Splats};
@@ -84,7 +84,7 @@ pub(super) fn sum_of_sharp(splats: &Splats, cosine: f64) -> f64 {
     if splats.clips.is_empty() {
         return 1.0;
     }
-    1.0 + 0.7 * surely_inside(cosine.abs(), 0.3)
+    1.0 + 0.7 * smooth_step((cosine.abs() - 0.3) / 0.3)
 }
 
 fn all_along_x(splats: &Splats) -> Vec<Among> {

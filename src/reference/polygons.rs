@@ -1,5 +1,7 @@
 //! The polygons of some rows of the picture.
 
+use glam::DVec2;
+
 use std::ops::Range;
 
 use super::band::{Drawn, Frame, for_each_candidate};
@@ -66,6 +68,7 @@ pub(super) fn collect(
                 weight: 1.0,
                 kernel: 1.0,
                 r2: 0.0,
+                fall: DVec2::ZERO,
                 kept: None,
                 source,
             });

@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use super::affine::ImageEllipse;
-use super::covering::{Covering, covers_in_part, inside_factor, left_out};
+use super::covering::{Covering, covers_in_part, left_out};
 use super::drawn_clip::DrawnClip;
 use super::epsilon::{EpsilonRule, polygon_reach};
 use super::ewa::Stretched;
@@ -219,8 +219,7 @@ fn prepare_one(
     };
     let image_size = map.size([projected(center, s), projected(center, t)]);
     let cosine = outward.dot(center.normalize()).abs();
-    let factor = inside_factor(cosine, view.focal_px * image_size) * sum_of_sharp(splats, cosine);
-    let overlap = overlap.map(|overlap| overlap / factor);
+    let overlap = overlap.map(|overlap| overlap / sum_of_sharp(splats, cosine));
     let low_pass = (in_front && settings.filter == Filter::Max).then(|| LowPass {
         center: center.truncate() / center.z,
         radius: h,

@@ -97,11 +97,6 @@ impl Sums {
     }
 }
 
-/// The cosine between a ray and the mean of unit normals whose weights sum to `weight`.
-pub(super) fn facing(sum: DVec3, weight: f64, ray: DVec3) -> f64 {
-    if weight > 0.0 { (sum.dot(ray.normalize()).abs() / weight).min(1.0) } else { 0.0 }
-}
-
 /// The direction of a sum of unit normals whose weights sum to `weight`; toward the eye where they cancel.
 pub(super) fn direction(sum: DVec3, weight: f64) -> DVec3 {
     if sum.length() <= VANISHING * weight { DVec3::NEG_Z } else { sum.normalize() }

@@ -13,6 +13,7 @@ mod clips_measured;
 mod cull;
 mod culling;
 mod edges;
+mod edges_inside;
 mod edges_measured;
 mod embedding;
 mod extremes;

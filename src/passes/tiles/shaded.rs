@@ -147,7 +147,7 @@ fn shade_overflow<'a>(
     lights: Option<&Handle<Buffer>>,
 ) -> Result<()> {
     let plan = tiles.plan;
-    let mut images = TileImages::of_overflow(graph, kind, plan);
+    let mut images = TileImages::of_overflow(graph, kind, plan, inputs.settings.edges);
     splat::see(graph, inputs, kind, tiles, &mut images, None, false)?;
     let host = shown.own_depth.is_some();
     splat::sum(graph, inputs, kind, tiles, &mut images, (None, host), false)?;

@@ -62,16 +62,24 @@ impl TileImages {
         images
     }
 
-    /// Images of as many overflow tiles as there may be.
-    pub fn of_overflow<'a>(graph: &mut Graph<'a, Body<'a>>, kind: &str, plan: &TilePlan) -> Self {
+    /// Images of as many overflow tiles as there may be. Where `edges` are covered in part, what covers pixels is below their colors.
+    pub fn of_overflow<'a>(
+        graph: &mut Graph<'a, Body<'a>>,
+        kind: &str,
+        plan: &TilePlan,
+        edges: Edges,
+    ) -> Self {
         let extent = extent_of_slots(plan.most_overflow() as u32, plan.tile_px());
-        let mut image = |what, format| {
+        let of_colors = if edges == Edges::Coverage { 2 * extent.height } else { extent.height };
+        let mut image = |what, format, height| {
+            let extent = vk::Extent2D { height, ..extent };
             graph.create_image(format_args!("{what} of {kind}overflow tiles"), ImageDesc { format, extent })
         };
         let format = sum_format(Accumulate::F32);
+        let color = image("color sums", format, of_colors);
         Self {
-            sums: Sums { color: image("color sums", format), normal: image("normal sums", format) },
-            depth: image("visible depth", VISIBLE_FORMAT),
+            sums: Sums { color, normal: image("normal sums", format, extent.height) },
+            depth: image("visible depth", VISIBLE_FORMAT, extent.height),
             in_slots: true,
         }
     }

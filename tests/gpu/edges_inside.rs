@@ -1,0 +1,67 @@
+//! A surface that goes on lets no light through, where what covers pixels is found from sums that vary.
+
+use crate::common::{
+    PICTURE, builder, render_as,
+    scenes::{self, Hard},
+    shared, with,
+};
+use glam::DVec3;
+use surfel::{
+    load::builtin::relief,
+    scene::{Edges, Object, Rasterizer, Settings},
+};
+
+/// Pixels this far from where the surface ends are inside.
+const INSIDE_PX: usize = 4;
+
+/// As what lets 3% of the background through is seen.
+const WHOLE: f32 = 0.97;
+
+fn seen_from_afar(object: Object, side_px: u32) -> Hard {
+    let mut scene = builder::Builder::default().scene(true);
+    scene.objects = vec![object];
+    with(&Hard::seen_from([3.0, 1.2, 2.4], "goes on", scene), |settings| {
+        settings.rasterizer = Rasterizer::Compute;
+        settings.background = None;
+        settings.size_px = [side_px; 2];
+    })
+}
+
+/// How many pixels are inside by hard edges, and how many of these let light through.
+fn let_through(object: Object, side_px: u32) -> [usize; 2] {
+    let mut headless = shared();
+    let hard = seen_from_afar(object, side_px);
+    let [crisp, covering] = [Edges::Hard, Edges::Coverage].map(|edges| {
+        let set = |settings: &mut Settings| settings.edges = edges;
+        render_as(&mut headless, &with(&hard, set), PICTURE).linear
+    });
+    let side = side_px as usize;
+    let inside = |x: usize, y: usize| {
+        let near = |at: usize| at.saturating_sub(INSIDE_PX)..(at + INSIDE_PX + 1).min(side);
+        near(y).all(|y| near(x).all(|x| crisp[y * side + x][3] == 1.0))
+    };
+    let places = (0..side).flat_map(|y| (0..side).map(move |x| (x, y)));
+    places.filter(|&(x, y)| inside(x, y)).fold([0, 0], |[all, through], (x, y)| {
+        [all + 1, through + usize::from(covering[y * side + x][3] < WHOLE)]
+    })
+}
+
+/// The bumps of the built-in relief, slanted, and balls of splats from a part of a pixel to ten large.
+#[test]
+fn what_goes_on_lets_no_light_through() {
+    let mut most = 0.0_f64;
+    let objects = [
+        ("relief", relief(100_000), 512),
+        ("relief", relief(20_000), 512),
+        ("ball", scenes::sphere(20_000, DVec3::ZERO), 256),
+        ("ball", scenes::sphere(1_000, DVec3::ZERO), 512),
+    ];
+    for (name, object, side_px) in objects {
+        let splats = object.splats.len();
+        let [inside, through] = let_through(object, side_px);
+        println!("{name} of {splats} splats, {side_px} px: {through} of {inside} pixels let light through");
+        assert!(inside > 10_000, "{inside}");
+        most = most.max(through as f64 / inside as f64);
+    }
+    assert!(most < 1e-3, "{most}");
+}
