@@ -96,6 +96,7 @@ void main()
     if (!find_work(whole, range)) {
         return;
     }
+    all_cover = COVERS;
     load(!whole && push.part > 0);
     if (SEES) {
         see(range);

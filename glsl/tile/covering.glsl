@@ -5,11 +5,20 @@
 
 #include "inc/edges.glsl"
 
-float summed[ROWS];       // the sum of weights over the overlap; where splats are WEIGHTED and not clipped, that of colors
+// In tiles with so many splats that nobody looks for further surfaces behind the first, all surfaces cover. One alone has too little there: what lies around a
+// pixel's middle is many epsilons deep. Of what has two sides both count.
+bool all_cover = false;
+
+float summed[ROWS];       // the sum of weights over the overlap; where that of colors is the same (has_own_sum), nothing
 vec2 fall[ROWS];          // by how much the sum falls a pixel along x and y (edge_opacity)
 float gap[ROWS];          // what disks by themselves leave uncovered
 vec2 uncut[ROWS];         // CUTS: the same sum and gap of splats that no curve cuts in the pixel
 vec4 kept_toward[ROWS];   // CUTS: of others the largest part that curves leave, by the direction in which they keep
+
+bool has_own_sum()
+{
+    return CUTS || !WEIGHTED || all_cover;
+}
 
 void begin_covering(int row)
 {
@@ -26,7 +35,7 @@ void cover(float weight, vec2 falls, float part, float kept, int row)
     float left = 1.0 - clamp(part, 0.0, 1.0);
     gap[row] *= left;
     fall[row] += falls;
-    if (CUTS || !WEIGHTED) {
+    if (has_own_sum()) {
         summed[row] += weight;
     }
     if (CUTS) {
@@ -51,11 +60,11 @@ float kept_part(int row)
 // The sum of weights alone, for whoever finds the opacity from it.
 float covering_sum(int row)
 {
-    return kept_part(row) * (CUTS || !WEIGHTED ? summed[row] : colors[row].w);
+    return kept_part(row) * (has_own_sum() ? summed[row] : colors[row].w);
 }
 
 // The part of the pixel that the surface covers.
 float opacity_of(int row)
 {
-    return kept_part(row) * edge_opacity(CUTS || !WEIGHTED ? summed[row] : colors[row].w, 1.0 - gap[row], length(fall[row]));
+    return kept_part(row) * edge_opacity(has_own_sum() ? summed[row] : colors[row].w, 1.0 - gap[row], length(fall[row]));
 }

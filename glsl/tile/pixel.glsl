@@ -140,6 +140,7 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     float depth = column.w0 * uvw.z;
     bool away = is_away(splat);
     bool inside = covers(uvw, depth, away, kept, row) && (!BY_SIDES || takes_both_sides || away == visible_away[row]);
+    bool covering = inside;
     if (WITH_POLYGONS) {
         inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
             && depth >= FORMULA(FORMULA_TOWARD_VIEWER, shifted(polygon[row], column.toward));
@@ -158,8 +159,9 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
         float part = attributes.own_part.x - attributes.own_part.y * r2;
         // Half of how r^2 changes a pixel, by the map as it is at the splat's center.
         vec2 change = splat.uv.xy * uvw.x + splat.uv.zw * uvw.y;
-        float covering = inside ? shared_weight : 0.0;
-        cover(covering, covering * kernel_decline(r2) * inverse_w2 * change, inside ? part : 0.0, inside ? kept : 1.0, row);
+        covering = all_cover ? covering : inside;
+        float covers = covering ? shared_weight : 0.0;
+        cover(covers, covers * kernel_decline(r2) * inverse_w2 * change, covering ? part : 0.0, covering ? kept : 1.0, row);
     }
     bool beyond = CREASES && is_beyond(kept);
     if (CREASES) {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use surfel::{
     hard_scenes::sphere,
     scene::{
-        Accumulate, Colors, Epsilon, FilterWeight, LastLayer, Layers, Light, LightKind, Order,
+        Accumulate, Colors, Edges, Epsilon, FilterWeight, LastLayer, Layers, Light, LightKind, Order,
         TileInvocations,
     },
 };
@@ -91,6 +91,32 @@ fn layers_of_overflow_tiles_lose_none() {
         assert!(passes(&tiles).contains(&"layers of tiles"), "{:?}", passes(&tiles));
         let may_be_off = if count == 3000 { tiles.linear.len() / 200 } else { 0 };
         assert!(different(&tiles, &points) <= may_be_off, "{name}: {}", different(&tiles, &points));
+    }
+}
+
+/// Where edges are covered in part, what a tile with many splats shows of a ball is what one with few does, of one surface and in layers.
+#[test]
+fn edges_of_overflow_tiles_cover_what_those_of_others_do() {
+    let mut headless = shared();
+    let camera = scenes::builder::camera([0.0, 0.0, 900.0], [0.0; 3]);
+    // Over several tiles, none of which overflows, and within one.
+    for (alpha, fov_y_rad) in [(1.0, 0.02), (1.0, 0.08), (0.4, 0.02), (0.4, 0.08)] {
+        let [few, many] = [4_000, 560_000].map(|count| {
+            let mut ball = sphere(count, DVec3::new(3.0, 5.0, 0.0));
+            ball.splats.colors = Colors::Uniform([0.8, 0.1, 0.1, alpha]);
+            let mut hard = hard(vec![ball], camera, [64, 64]);
+            (hard.settings.edges, hard.settings.background) = (Edges::Coverage, None);
+            hard.camera.fov_y_rad = fov_y_rad;
+            by_tiles(&mut headless, &hard, PICTURE)
+        });
+        let overflows = |frame| passes(frame).iter().any(|pass| pass.contains("overflow"));
+        assert!(overflows(&many) && !overflows(&few), "{:?}", passes(&many));
+        let off = few.linear.iter().zip(&many.linear).map(|(a, b)| (a[3] - b[3]).abs());
+        let in_part =
+            many.linear.iter().filter(|color| color[3] > 0.05 * alpha && color[3] < 0.95 * alpha).count();
+        let worst = off.fold(0.0, f32::max);
+        println!("alpha {alpha}, {fov_y_rad}: {in_part} pixels are covered in part, {worst} off at most");
+        assert!(in_part >= 8 && worst < 0.1 * alpha, "{in_part} {worst}");
     }
 }
 
