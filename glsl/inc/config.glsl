@@ -261,6 +261,7 @@
 #define EDGE_FACING 0.3             // Cosine between normal and ray: below it a surface may end by turning away, above twice that it does not (`inc/edges.glsl`).
 #define EDGE_BEND 0.12              // The square of that cosine of a splat whose image has a pixel: by so much surfaces bend within their splats.
 #define WHOLE_EDGE_SUM 0.79         // From this sum over the overlap on a pixel is covered by a surface that faces the eye.
+#define MOST_POLYGON_SAMPLES 4      // Samples of a pixel at which polygons are drawn, where they cover pixels in part.
 #define WHOLE_SEAM_SUM 0.5          // From this sum on, splats hide the polygons of the same surface: at a seam half of a surface's are there.
 #define EYE_DOME_STRENGTH 0.7         // How much darker eye-dome lighting makes a slope of 1 all around, as an exponent.
 #define MOST_STACKED_SURFACES 8.0   // Surfaces that the last layer counts as, at most: a rim before it would count it as a thousand.

@@ -14,6 +14,7 @@ mod cull;
 mod culling;
 mod edges;
 mod edges_measured;
+mod edges_of_polygons;
 mod embedding;
 mod extremes;
 mod eye_dome;

@@ -12,24 +12,28 @@ use crate::passes::{
     pass::Pass,
     pipeline::formats::DEPTH_FORMAT,
     place::read,
-    polygons::mesh_pass::{MeshPass, draw_meshes},
+    polygons::{
+        mesh_pass::{MeshPass, draw_meshes},
+        sampled::{STANDARD_PLACES, move_to_sample},
+    },
     splats::draw::{SplatPass, bind_read, draw_splats},
 };
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     shaders::{self, config::*},
-    vk::Blend,
+    vk::{Attachments, Blend},
 };
 
 /// Nearer to the depth that is drawn has the greater depth.
 const TEST: Option<(vk::CompareOp, bool)> = Some((vk::CompareOp::GREATER, true));
 
-/// Declares the passes. `surface`: the depth that is drawn, as [`super::depth_out`] leaves it.
+/// Declares the passes. `surface`: the depth that is drawn, as [`super::depth_out`] leaves it; `in_part`: of polygons it is that of a sample, so that they are
+/// drawn at each.
 pub(crate) fn objects<'a>(
     graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
-    surface: &Handle<Image>,
+    (surface, in_part): (&Handle<Image>, bool),
     objects: &mut Handle<Image>,
 ) -> Result<()> {
     let lists = Lists::make(graph, inputs, "objects' ")?;
@@ -52,6 +56,7 @@ pub(crate) fn objects<'a>(
         color_formats: color_formats(),
         blend: Blend::Replace,
         depth: TEST,
+        attachments: Attachments::default(),
         constants: [].into(),
     };
     let splats = splats.pipelines(&pass, inputs)?;
@@ -59,7 +64,13 @@ pub(crate) fn objects<'a>(
     pass.finish(move |pass| {
         bind_read(pass)?;
         draw_splats(pass, inputs, splats)?;
-        draw_meshes(pass, inputs, meshes)
+        if !in_part {
+            return draw_meshes(pass, inputs, meshes);
+        }
+        STANDARD_PLACES.iter().try_for_each(|place| {
+            move_to_sample(pass, inputs, *place);
+            draw_meshes(pass, inputs, meshes)
+        })
     });
     Ok(())
 }

@@ -22,7 +22,7 @@ use crate::{
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::{Accumulate, Settings},
     shaders::{self, config::*},
-    vk::Blend,
+    vk::{Attachments, Blend},
 };
 
 /// What the pass is made of.
@@ -32,12 +32,13 @@ fn mesh_pass(settings: &Settings) -> MeshPass {
         color_formats: [sum_format(settings.accumulate); 2].into(),
         blend: Blend::Replace,
         depth: Some((vk::CompareOp::GREATER, true)),
+        attachments: Attachments::default(),
         constants: [].into(),
     }
 }
 
 /// What the pass is made of that shades them; `precision`: of what it leaves.
-fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> MeshPass {
+pub(super) fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> MeshPass {
     let mut constants = shading_constants(settings.shading, lights);
     constants.push((SPEC_HALF_FLOATS, u32::from(precision == Accumulate::F16)));
     MeshPass {

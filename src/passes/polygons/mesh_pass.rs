@@ -17,7 +17,7 @@ use crate::passes::{
 use crate::{
     error::Result,
     shaders::{self, Shader, config::*},
-    vk::Blend,
+    vk::{Attachments, Blend},
 };
 
 /// What a pass over polygons is made of: its fragment stage, and what it writes.
@@ -27,6 +27,8 @@ pub(crate) struct MeshPass {
     pub blend: Blend,
     /// The depth test and whether it writes, where there is one.
     pub depth: Option<(vk::CompareOp, bool)>,
+    /// The rest of what it draws to.
+    pub attachments: Attachments,
     pub constants: Constants,
 }
 
@@ -36,12 +38,17 @@ impl MeshPass {
         let topology = vk::PrimitiveTopology::TRIANGLE_LIST;
         let outward = (SPEC_OUTWARD, u32::from(draw.chunk.closed && draw.chunk.transparent));
         let constants = self.constants.with([outward]);
+        let vertex = match self.attachments.samples {
+            vk::SampleCountFlags::TYPE_1 => &shaders::POLYGONS_VERT,
+            _ => &shaders::POLYGONS_SAMPLED_VERT,
+        };
         GraphicsKey {
             color_formats: self.color_formats,
             blend: self.blend,
             depth: self.depth,
             cull_clockwise: draw.cull,
-            ..GraphicsKey::new((&shaders::POLYGONS_VERT, self.fragment), Layout::Splat, topology, constants)
+            attachments: self.attachments,
+            ..GraphicsKey::new((vertex, self.fragment), Layout::Splat, topology, constants)
         }
     }
 

@@ -1,0 +1,53 @@
+// The polygons of a tile's pixels, which were drawn and shaded as if there were no splats: at each pixel's center; or, POLYGONS, at four places of it, each with
+// the depth of the polygon that is the nearest there.
+
+#if defined(POLYGONS)
+#define POLYGON_SAMPLES MOST_POLYGON_SAMPLES
+#define POLYGON_IMAGE texture2DMS
+#else
+#define POLYGON_SAMPLES 1
+#define POLYGON_IMAGE texture2D
+#endif
+
+layout(set = 0, binding = BIND_COLORS_BEFORE) uniform POLYGON_IMAGE shown_before;
+layout(set = 0, binding = BIND_POLYGON_DEPTH) uniform POLYGON_IMAGE polygon_depth;
+
+// Those of a pixel that lie between two depths.
+struct Polygons {
+    vec3 light;     // of what they cover
+    float share;    // how much of the pixel that is
+    float depth;    // in the mean, which is that at the center where one plane covers all; 0 where there are none
+    float nearest;  // of one of them at least,
+    float of_more;  // and of two
+};
+
+Polygons polygons_between(float far, float near, int row)
+{
+    Polygons polygons = Polygons(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    if (!WITH_POLYGONS) {
+        return polygons;
+    }
+    ivec2 pixel = pixel_within_image(row);
+    float count = 0.0;
+    [[unroll]] for (int i = 0; i < POLYGON_SAMPLES; i++) {
+        float w = texelFetch(polygon_depth, pixel, i).r;
+        bool between = w > far && w <= near;
+        w = between ? w : 0.0;
+        count += between ? 1.0 : 0.0;
+        polygons.light += between ? texelFetch(shown_before, pixel, i).rgb : vec3(0.0);
+        polygons.depth += w;
+        polygons.of_more = max(polygons.of_more, min(polygons.nearest, w));
+        polygons.nearest = max(polygons.nearest, w);
+    }
+    polygons.light /= max(count, 1.0);
+    polygons.depth /= max(count, 1.0);
+    polygons.share = count / float(POLYGON_SAMPLES);
+    return polygons;
+}
+
+// The depth at which what they cover, and what is `before` them, is half of the pixel.
+float depth_of_half(Polygons polygons, float before)
+{
+    bool takes_more = POLYGON_SAMPLES > 1 && before + 1.0 / float(POLYGON_SAMPLES) < 0.5;
+    return takes_more && polygons.of_more > 0.0 ? polygons.of_more : polygons.nearest;
+}
