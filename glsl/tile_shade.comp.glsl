@@ -127,11 +127,12 @@ void shade_edges(Range range)
                 own[row] = part > 0.0 && (covers_half || own[row] == 0.0) ? depth : own[row];
             }
             light[row] += part * vec4(color, 1.0);
-            bool ends = !(surface.weight > 0.0) && !beside || visible[row] == 0.0 || light[row].a >= 1.0;
+            bool ends = !(surface.weight > 0.0) || light[row].a >= 1.0;
             if (WITH_POLYGONS) {
                 put_behind(polygons, beside ? both - part : 0.0, light[row], hiding[row], own[row]);
                 polygons_left[row] = beside ? visible[row] : polygons_left[row];
-                ends = ends || light[row].a >= 1.0 || POLYGON_SAMPLES == 1 && beside;
+                // Behind polygons that cover a part there may be more, where splats are left.
+                ends = light[row].a >= 1.0 || (beside ? POLYGON_SAMPLES == 1 || visible[row] == 0.0 : ends);
                 go_behind_polygons(beside, row);
             }
             if (BY_SIDES) {

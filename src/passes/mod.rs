@@ -203,7 +203,7 @@ fn shaded_by_tiles<'a>(
     for (band, inputs, plan) in inputs.of_bands(graph.arena()) {
         let mut tiles = tiles::list(graph, inputs, band, plan)?;
         let polygons = match (&samples, &opaque.polygon_depth) {
-            (Some(samples), _) => PolygonsBefore::Sampled(samples),
+            (Some(samples), _) => PolygonsBefore::Sampled(&samples.color, &samples.depth),
             (None, Some(depth)) => PolygonsBefore::Whole(depth),
             (None, None) => PolygonsBefore::None,
         };

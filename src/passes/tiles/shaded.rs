@@ -10,7 +10,6 @@ use crate::passes::{
     pipeline::{key::ComputeKey, variant::shading_constants},
     place::tiles as at,
     plan::{outputs::Outputs, tiles::TilePlan},
-    polygons::sampled::SampledPolygons,
     tiles::{
         clear::clear,
         dispatch,
@@ -62,7 +61,8 @@ pub(crate) enum PolygonsBefore<'p> {
     None,
     /// Their depth; what they show is in the image of what tiles do.
     Whole(&'p Handle<Image>),
-    Sampled(&'p SampledPolygons),
+    /// Light and depth, sample by sample.
+    Sampled(&'p Handle<Image>, &'p Handle<Image>),
 }
 
 /// Beside what tiles are shaded.
@@ -120,7 +120,7 @@ pub(crate) fn shaded<'a>(
     let (depth, samples) = match polygons {
         PolygonsBefore::None => (None, None),
         PolygonsBefore::Whole(depth) => (Some(depth), None),
-        PolygonsBefore::Sampled(SampledPolygons { color, depth }) => (Some(depth), Some(color)),
+        PolygonsBefore::Sampled(color, depth) => (Some(depth), Some(color)),
     };
     let (access, content) = start.access();
     let why = "opaque splats: visibility, sums and shading of one tile after the other";
