@@ -1,9 +1,6 @@
 // Polygons: the vertices of triangles, for every pass that draws them, so that their depth is the same in all.
 //
-// SAMPLED: for fragments at samples of a pixel (polygons.frag.glsl).
-//
 // Reversed, infinite depth, near / z, is what the division by z leaves of the constant `near`; the device clips at z = near.
-// Permutations: _ sampled
 #version 460
 #include "inc/perturb.glsl"
 #include "inc/frame.glsl"
@@ -18,9 +15,6 @@ layout(set = 0, binding = BIND_SPLATS_COLORS, std430) readonly buffer Colors { u
 
 layout(location = 0) out vec4 color_alpha; // linear
 layout(location = 1) out vec3 normal;      // view space, on the side from which the corners are counterclockwise
-#if defined(SAMPLED)
-layout(location = 2) out float one;
-#endif
 
 void main()
 {
@@ -35,7 +29,4 @@ void main()
     uvec2 packed = colors[UNIFORM_COLOR ? 0 : gl_VertexIndex];
     color_alpha = tinted(vec4(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y)));
     normal = rotated(vertices[2 * gl_VertexIndex + 1].xyz);
-#if defined(SAMPLED)
-    one = 1.0;
-#endif
 }

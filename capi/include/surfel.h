@@ -64,11 +64,6 @@
 #define SURFEL_FEATURE_INDEPENDENT_BLEND 256
 
 /**
- * `sampleRateShading`; without it polygons beside splats have stairs at their silhouettes, in pictures of one sample a pixel.
- */
-#define SURFEL_FEATURE_SAMPLE_RATE_SHADING 512
-
-/**
  * The most formats that are listed.
  */
 #define SURFEL_MAX_FORMATS 16

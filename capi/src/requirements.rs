@@ -38,8 +38,6 @@ pub const SURFEL_FEATURE_DRAW_INDIRECT_COUNT: u64 = 64;
 pub const SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY: u64 = 128;
 /// `independentBlend`; without it a view is drawn within renderings of one color attachment only.
 pub const SURFEL_FEATURE_INDEPENDENT_BLEND: u64 = 256;
-/// `sampleRateShading`; without it polygons beside splats have stairs at their silhouettes, in pictures of one sample a pixel.
-pub const SURFEL_FEATURE_SAMPLE_RATE_SHADING: u64 = 512;
 
 /// The most formats that are listed.
 pub const SURFEL_MAX_FORMATS: usize = 16;
@@ -95,7 +93,6 @@ pub fn flags_of(features: &Features) -> u64 {
         draw_indirect_count,
         pipeline_statistics_query,
         independent_blend,
-        sample_rate_shading,
     } = *features;
     let all = [
         (synchronization2, SURFEL_FEATURE_SYNCHRONIZATION2),
@@ -107,7 +104,6 @@ pub fn flags_of(features: &Features) -> u64 {
         (draw_indirect_count, SURFEL_FEATURE_DRAW_INDIRECT_COUNT),
         (pipeline_statistics_query, SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY),
         (independent_blend, SURFEL_FEATURE_INDEPENDENT_BLEND),
-        (sample_rate_shading, SURFEL_FEATURE_SAMPLE_RATE_SHADING),
     ];
     all.iter().map(|(has, flag)| if *has { *flag } else { 0 }).sum()
 }
@@ -137,7 +133,6 @@ pub fn features_of(flags: u64) -> Features {
         draw_indirect_count: has(SURFEL_FEATURE_DRAW_INDIRECT_COUNT),
         pipeline_statistics_query: has(SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY),
         independent_blend: has(SURFEL_FEATURE_INDEPENDENT_BLEND),
-        sample_rate_shading: has(SURFEL_FEATURE_SAMPLE_RATE_SHADING),
     }
 }
 
@@ -239,7 +234,6 @@ pub unsafe extern "C" fn surfel_enable_features(
         let ours = features_of(features);
         let (core_of, of12, of13) = (ours.core(), ours.vulkan12(), ours.vulkan13());
         core.independent_blend |= core_of.independent_blend;
-        core.sample_rate_shading |= core_of.sample_rate_shading;
         core.large_points |= core_of.large_points;
         core.draw_indirect_first_instance |= core_of.draw_indirect_first_instance;
         core.pipeline_statistics_query |= core_of.pipeline_statistics_query;

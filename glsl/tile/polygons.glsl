@@ -1,16 +1,14 @@
-// The polygons of a tile's pixels, which were drawn and shaded as if there were no splats: at each pixel's center; or, POLYGONS, at four places of it, each with
-// the depth of the polygon that is the nearest there.
+// The polygons of a tile's pixels, which were drawn and shaded as if there were no splats: at each pixel's center; or, POLYGONS, at four places about it
+// (src/passes/polygons/sampled.rs), whose images lie one beside the other.
 
 #if defined(POLYGONS)
 #define POLYGON_SAMPLES MOST_POLYGON_SAMPLES
-#define POLYGON_IMAGE texture2DMS
 #else
 #define POLYGON_SAMPLES 1
-#define POLYGON_IMAGE texture2D
 #endif
 
-layout(set = 0, binding = BIND_COLORS_BEFORE) uniform POLYGON_IMAGE shown_before;
-layout(set = 0, binding = BIND_POLYGON_DEPTH) uniform POLYGON_IMAGE polygon_depth;
+layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D shown_before;
+layout(set = 0, binding = BIND_POLYGON_DEPTH) uniform texture2D polygon_depth;
 
 // Those of a pixel that lie between two depths.
 struct Polygons {
@@ -28,13 +26,15 @@ Polygons polygons_between(float far, float near, int row)
         return polygons;
     }
     ivec2 pixel = pixel_within_image(row);
+    ivec2 size_px = textureSize(polygon_depth, 0) / 2;
     float count = 0.0;
     [[unroll]] for (int i = 0; i < POLYGON_SAMPLES; i++) {
-        float w = texelFetch(polygon_depth, pixel, i).r;
+        ivec2 at = pixel + ivec2(i & 1, i >> 1) * size_px;
+        float w = texelFetch(polygon_depth, at, 0).r;
         bool between = w > far && w <= near;
         w = between ? w : 0.0;
         count += between ? 1.0 : 0.0;
-        polygons.light += between ? texelFetch(shown_before, pixel, i).rgb : vec3(0.0);
+        polygons.light += between ? texelFetch(shown_before, at, 0).rgb : vec3(0.0);
         polygons.depth += w;
         polygons.of_more = max(polygons.of_more, min(polygons.nearest, w));
         polygons.nearest = max(polygons.nearest, w);

@@ -93,8 +93,7 @@ impl Images {
         let [width, height] = size_px;
         let extent = vk::Extent2D { width, height };
         let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
-        let desc =
-            |name, format| ImageDesc { name, format, extent, samples: vk::SampleCountFlags::TYPE_1, usage };
+        let desc = |name, format| ImageDesc { name, format, extent, usage };
         let Self { surface, depth, layers: of_layers, objects: of_objects, .. } = self;
         let layers = layers.then(|| of_layers.fit(device, desc("layers for a host", format)));
         let objects = objects.then(|| of_objects.fit(device, desc("objects for a host", OBJECTS_FORMAT)));
@@ -153,8 +152,8 @@ impl Sizes {
 impl Placed {
     /// An image that is in no place yet.
     fn new(device: &Device, desc: ImageDesc<'_>) -> Result<Self> {
-        let ImageDesc { format, extent, samples, usage, .. } = desc;
-        let wanted = ResourceDesc::Image(Wanted { format, extent, samples });
+        let ImageDesc { format, extent, usage, .. } = desc;
+        let wanted = ResourceDesc::Image(Wanted { format, extent });
         let MemoryNeed { size_bytes, alignment_bytes, type_bits } =
             memory_need(device, &wanted, Usage::Image(usage))?;
         let block = [Block { class: MemoryClass::Images, size_bytes, alignment_bytes, type_bits }];

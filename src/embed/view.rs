@@ -183,7 +183,7 @@ impl View {
         let [width, height] = settings.size_px;
         let extent = vk::Extent2D { width, height };
         let mut import = |name: &str, image: &crate::vk::Image| {
-            let desc = ImageDesc::of_pixels(image.format(), extent);
+            let desc = ImageDesc { format: image.format(), extent };
             let handle = graph.import_image(name, desc, BEFORE, Some(AFTER));
             imports.push((handle.id(), Physical::Image(image.raw(), image.view())));
             handle
@@ -194,12 +194,8 @@ impl View {
         let mut objects = images.objects.map(|image| import("objects for a host", image));
         let hides = frame.hides.filter(|_| layered).map(|hides| {
             let DepthImage { image, view, format, extent, before, after } = hides;
-            let handle = graph.import_image(
-                "depth of the host",
-                ImageDesc::of_pixels(format, extent),
-                before,
-                Some(after),
-            );
+            let handle =
+                graph.import_image("depth of the host", ImageDesc { format, extent }, before, Some(after));
             imports.push((handle.id(), Physical::Image(image, view)));
             handle
         });

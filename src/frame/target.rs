@@ -43,7 +43,6 @@ impl HeadlessTarget {
                 name: "target",
                 format,
                 extent: vk::Extent2D { width, height },
-                samples: vk::SampleCountFlags::TYPE_1,
                 usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
             },
         )?;

@@ -41,22 +41,13 @@ impl<Kind> Handle<Kind> {
     }
 }
 
-/// A 2D image of one mip level and one layer.
+/// A 2D image of one mip level, one layer and one sample a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImageDesc {
     /// The format; any but `UNDEFINED`.
     pub format: vk::Format,
     /// Width and height in pixels, each above 0.
     pub extent: vk::Extent2D,
-    /// Samples of a pixel; of more than one it is an attachment and sampled, and no more.
-    pub samples: vk::SampleCountFlags,
-}
-
-impl ImageDesc {
-    /// An image of one sample a pixel.
-    pub fn of_pixels(format: vk::Format, extent: vk::Extent2D) -> Self {
-        Self { format, extent, samples: vk::SampleCountFlags::TYPE_1 }
-    }
 }
 
 /// A buffer.

@@ -39,8 +39,7 @@ impl Plan {
             }
             ResourceDesc::Image(desc) => desc,
         };
-        let samples = u64::from(desc.samples.as_raw());
-        let pixels = u64::from(desc.extent.width) * u64::from(desc.extent.height) * samples;
+        let pixels = u64::from(desc.extent.width) * u64::from(desc.extent.height);
         let pixel_bytes = bytes_per_pixel(desc.format)?;
         let texels = match usage.access {
             access if access.is_attachment() => {
@@ -51,11 +50,9 @@ impl Plan {
                 let stored = u64::from(attachment.store == vk::AttachmentStoreOp::STORE);
                 pixels * (loaded + stored)
             }
-            Access::SampledFragment => {
-                pixels.min(executed.fragments.map_or(pixels, |fragments| samples * fragments))
-            }
+            Access::SampledFragment => pixels.min(executed.fragments.unwrap_or(pixels)),
             // Written or read: where both are declared, it may be for what is not touched and shall stay.
-            _ if pass.kind == PassKind::Compute => pixels.min(samples * executed.pixels),
+            _ if pass.kind == PassKind::Compute => pixels.min(executed.pixels),
             _ => pixels * times(usage),
         };
         Some(texels * pixel_bytes)
@@ -100,7 +97,7 @@ mod tests {
     #[test]
     fn what_is_loaded_stored_and_read_is_counted_once_each() {
         let extent = vk::Extent2D { width: 10, height: 4 };
-        let image = |format| ImageDesc::of_pixels(format, extent);
+        let image = |format| ImageDesc { format, extent };
         let mut graph = graph();
         let mut depth = graph.create_image("depth", image(vk::Format::D32_SFLOAT));
         let mut sums = graph.create_image("sums", image(vk::Format::R16G16B16A16_SFLOAT));
@@ -140,7 +137,7 @@ mod tests {
         let extent = vk::Extent2D { width: 10, height: 4 };
         let format = vk::Format::R16G16B16A16_SFLOAT;
         let mut graph = graph();
-        let mut shown = graph.create_image("shown", ImageDesc::of_pixels(format, extent));
+        let mut shown = graph.create_image("shown", ImageDesc { format, extent });
         let mut counts = graph.create_buffer("counts", BufferDesc::of_bytes(100));
         let mut list = graph.create_buffer("list", BufferDesc::of_bytes(1000));
         graph.pass("clear image").write(&mut shown, Access::TransferWrite, Start::Discard).finish(());

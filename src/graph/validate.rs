@@ -113,10 +113,6 @@ fn check_use(graph: &Declared<'_>, pass: &Pass<'_>, usage: &Use) -> Result<()> {
             if access.info().image.is_none() {
                 return refuse(format!("{access:?} is not an access to an image"));
             }
-            let is_read = matches!(access, Access::SampledFragment | Access::SampledCompute);
-            if desc.samples != vk::SampleCountFlags::TYPE_1 && !access.is_attachment() && !is_read {
-                return refuse(format!("{access:?} is not an access to several samples of a pixel"));
-            }
             let aspect = aspect_of(desc.format);
             if access.is_depth_attachment() && !aspect.contains(vk::ImageAspectFlags::DEPTH) {
                 return refuse(format!("{access:?} needs a depth format, not {:?}", desc.format));
@@ -213,16 +209,11 @@ fn check_attachments(graph: &Declared<'_>, pass: &Pass<'_>) -> Result<()> {
         if usage.access.is_depth_attachment() && std::mem::replace(&mut has_depth, true) {
             return refuse(pass.name, name, "it is the second depth attachment of the pass");
         }
-        let (first_name, of_first, samples) = *first.get_or_insert((name, desc.extent, desc.samples));
+        let (first_name, of_first) = *first.get_or_insert((name, desc.extent));
         if desc.extent != of_first {
             let size = |extent: vk::Extent2D| format!("{}x{}", extent.width, extent.height);
             let (own, other) = (size(desc.extent), size(of_first));
             let reason = format!("its size {own} differs from that of attachment '{first_name}', {other}");
-            return refuse(pass.name, name, reason);
-        }
-        if desc.samples != samples {
-            let reason =
-                format!("its samples of a pixel are not as many as those of attachment '{first_name}'");
             return refuse(pass.name, name, reason);
         }
     }

@@ -164,7 +164,7 @@ impl<'a> Floor<'a> {
             }
         } else {
             let target = self.target.target();
-            let desc = ImageDesc::of_pixels(target.format, target.extent);
+            let desc = ImageDesc { format: target.format, extent: target.extent };
             let mut image = graph.import_image("target", desc, target.initial, None);
             imports.push((image.id(), Physical::Image(target.image, target.view)));
             let points: Vec<_> = handles

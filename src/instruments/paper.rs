@@ -72,7 +72,7 @@ pub fn draw_as_published(
     let arena = Arena::new();
     let mut graph = Graph::new(&arena);
     let target = drawn.target();
-    let desc = ImageDesc::of_pixels(format, target.extent);
+    let desc = ImageDesc { format, extent: target.extent };
     let mut image = graph.import_image("target", desc, target.initial, None);
     paper_frame(&mut graph, inputs, &mut image, format, filtered)?;
     let mut buffer = import_readback(&mut graph, "target", format, target.extent);

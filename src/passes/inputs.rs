@@ -104,7 +104,7 @@ impl<'a> Inputs<'a> {
     }
 
     pub(crate) fn image(&self, format: vk::Format) -> ImageDesc {
-        ImageDesc::of_pixels(format, self.extent())
+        ImageDesc { format, extent: self.extent() }
     }
 
     /// What passes over the whole image are told of it.

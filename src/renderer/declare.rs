@@ -36,7 +36,7 @@ pub(crate) fn declare<'a>(
             Some(image)
         }
     };
-    let desc = ImageDesc::of_pixels(target.format, target.extent);
+    let desc = ImageDesc { format: target.format, extent: target.extent };
     let mut image = graph.import_image("target", desc, target.initial, target.last);
     imports.push((image.id(), Physical::Image(target.image, target.view)));
 
@@ -97,7 +97,7 @@ fn one_sample<'a>(
     sample: SampleSum,
 ) -> Result<Handle<Image>> {
     let format = passes::SAMPLE_FORMAT;
-    let desc = ImageDesc::of_pixels(format, extent);
+    let desc = ImageDesc { format, extent };
     let mut drawn = graph.create_image("sample", desc);
     passes::frame(graph, inputs, plan, &mut drawn, format, (false, None))?;
     let between = ImageState {

@@ -159,7 +159,7 @@ fn declare<'a>(
             let color = of("colors of all parts", PART_SUM_FORMAT, color);
             let normal = of("normals of all parts", PART_SUM_FORMAT, normal);
             let of_all = OfAll { depth: &depth, sums: [&color, &normal] };
-            let desc = ImageDesc::of_pixels(target.format, target.extent);
+            let desc = ImageDesc { format: target.format, extent: target.extent };
             let mut image = graph.import_image("target", desc, target.initial, target.last);
             imports.push((image.id(), Physical::Image(target.image, target.view)));
             let into = (&mut image, target.format);

@@ -91,7 +91,6 @@ impl Renderer {
         self.limits.point_size_range[1] = own.point_size_range[1].min(to.point_size_range[1]);
         self.limits.max_image_side = own.max_image_side.min(to.max_image_side);
         self.limits.shuffles = own.shuffles && to.shuffles;
-        self.limits.shades_samples = own.shades_samples && to.shades_samples;
         self.limits.first_instance = own.first_instance && to.first_instance;
         self.limits.is_cpu = own.is_cpu && to.is_cpu;
         self.limits.storage_buffers_a_stage = own.storage_buffers_a_stage.min(to.storage_buffers_a_stage);

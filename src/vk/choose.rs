@@ -77,8 +77,6 @@ pub struct Limits {
     pub shuffles: bool,
     /// Indirect draws may begin at any instance (`drawIndirectFirstInstance`).
     pub first_instance: bool,
-    /// What lies in a pixel can be shaded sample by sample (`sampleRateShading`): 4 of them, as every device can draw to and read.
-    pub shades_samples: bool,
     /// 32-bit floats, one and four a texel, can be added up in attachments: `--accumulate f32`.
     pub blend_f32: bool,
     /// The device is the CPU.
@@ -101,7 +99,6 @@ impl Limits {
             stores_without_format: true,
             shuffles: false,
             first_instance: true,
-            shades_samples: true,
             blend_f32: false,
             is_cpu: false,
         }
@@ -132,9 +129,6 @@ impl DeviceFacts {
         }
         if !self.pipeline_statistics {
             lacks.push("pipelineStatisticsQuery: fragments are not counted");
-        }
-        if !self.limits.shades_samples {
-            lacks.push("sampleRateShading: polygons beside splats end in stairs, unless with --samples");
         }
         if !self.limits.blend_f32 {
             lacks.push("blending of R32G32B32A32_SFLOAT: no --accumulate f32");

@@ -157,7 +157,6 @@ pub(super) unsafe fn facts(
             timestamp_valid_bits: queue_family.map_or(0, |index| families[index].timestamp_valid_bits),
             stores_without_format: version >= vk::API_VERSION_1_3 && STORED_FORMATS.into_iter().all(stores),
             storage_buffers_a_stage: limits.max_per_stage_descriptor_storage_buffers,
-            shades_samples: core.sample_rate_shading == vk::TRUE,
             first_instance: core.draw_indirect_first_instance == vk::TRUE,
             is_cpu: properties.device_type == vk::PhysicalDeviceType::CPU,
             shuffles: sizes.min_subgroup_size >= 8

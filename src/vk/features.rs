@@ -24,8 +24,6 @@ pub struct Features {
     pub pipeline_statistics_query: bool,
     /// `independentBlend`; without it a view is drawn within renderings of one color attachment only.
     pub independent_blend: bool,
-    /// `sampleRateShading`; without it polygons beside splats have stairs at their silhouettes, in pictures of one sample a pixel.
-    pub sample_rate_shading: bool,
 }
 
 impl Features {
@@ -40,7 +38,6 @@ impl Features {
         draw_indirect_count: false,
         pipeline_statistics_query: false,
         independent_blend: false,
-        sample_rate_shading: false,
     };
 
     /// The names of needed ones that are not among these.
@@ -61,7 +58,6 @@ impl Features {
             .draw_indirect_first_instance(self.draw_indirect_first_instance)
             .pipeline_statistics_query(self.pipeline_statistics_query)
             .independent_blend(self.independent_blend)
-            .sample_rate_shading(self.sample_rate_shading)
     }
 
     /// Those of Vulkan 1.2, for the chain that a device is created with.

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::error::{Error, Result};
 
-/// The description of an image: two-dimensional, one mip level, one layer, optimal tiling.
+/// The description of an image: two-dimensional, one mip level, one layer, one sample, optimal tiling.
 #[derive(Clone, Copy, Debug)]
 pub struct ImageDesc<'a> {
     /// Its debug name.
@@ -20,8 +20,6 @@ pub struct ImageDesc<'a> {
     pub format: vk::Format,
     /// Width and height in pixels.
     pub extent: vk::Extent2D,
-    /// Samples of a pixel.
-    pub samples: vk::SampleCountFlags,
     /// Its uses.
     pub usage: vk::ImageUsageFlags,
 }
@@ -53,7 +51,7 @@ impl ImageDesc<'_> {
             .extent(self.extent.into())
             .mip_levels(1)
             .array_layers(1)
-            .samples(self.samples)
+            .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(self.usage)
     }

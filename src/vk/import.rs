@@ -53,7 +53,6 @@ impl Device {
         facts.large_points = host.enabled.large_points;
         facts.pipeline_statistics = host.enabled.pipeline_statistics_query;
         facts.independent_blend = host.enabled.independent_blend;
-        facts.limits.shades_samples &= host.enabled.sample_rate_shading;
         facts.limits.first_instance = host.enabled.draw_indirect_first_instance;
         facts.draw_indirect_count &= host.enabled.draw_indirect_count;
         if !host.enabled.large_points {

@@ -73,7 +73,6 @@ pub(super) fn offered(facts: &DeviceFacts) -> Features {
         draw_indirect_count: facts.draw_indirect_count,
         pipeline_statistics_query: facts.pipeline_statistics,
         independent_blend: facts.independent_blend,
-        sample_rate_shading: facts.limits.shades_samples,
         ..Features::NEEDED
     }
 }

@@ -107,7 +107,6 @@ impl Made {
             name: "stand-in",
             format: IMAGE_FORMAT,
             extent: vk::Extent2D { width: 1, height: 1 },
-            samples: vk::SampleCountFlags::TYPE_1,
             usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::STORAGE,
         };
         Ok(Self {

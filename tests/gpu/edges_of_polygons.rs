@@ -95,7 +95,7 @@ fn a_part_of_a_picture_has_the_polygons_samples_of_the_whole() {
     assert!(1000 * different <= 2 * part.len(), "{different} of {}", part.len());
 }
 
-/// Several samples of a picture are as many of its polygons. Where edges are hard, and where a device cannot shade samples, polygons have one.
+/// Several samples of a picture are as many of its polygons. Where edges are hard, and where a device has no image for them, polygons have one.
 #[test]
 fn polygons_have_one_sample_where_pictures_have_more_and_where_edges_are_hard() {
     let mut headless = shared();
@@ -108,11 +108,8 @@ fn polygons_have_one_sample_where_pictures_have_more_and_where_edges_are_hard() 
     of_one(&mut headless, &with(&hard, |settings| settings.samples = Samples(8)));
     let picture = of_one(&mut headless, &with(&hard, |settings| settings.edges = Edges::Hard));
     assert!(picture.iter().all(|pixel| pixel[3] == 0.0 || pixel[3] == 1.0));
-    let alone = with_limits(
-        &mut headless,
-        |limits| limits.shades_samples = false,
-        |headless| of_one(headless, &hard),
-    );
+    let alone =
+        with_limits(&mut headless, |limits| limits.max_image_side = 300, |headless| of_one(headless, &hard));
     assert_eq!(in_fourths(&alone), 0);
     // Inside of what covers pixels wholly, both are the same.
     let sampled = render_as(&mut headless, &hard, PICTURE).linear;

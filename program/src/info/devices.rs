@@ -191,7 +191,6 @@ mod tests {
                 stores_without_format: true,
                 shuffles: false,
                 first_instance: true,
-                shades_samples: true,
                 is_cpu: false,
             },
         }

@@ -305,5 +305,5 @@ impl Picture {
 
 fn image_of(device: &Device, name: &str, format: vk::Format, extent: vk::Extent2D) -> Result<Image> {
     let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
-    Image::new(device, ImageDesc { name, format, extent, samples: vk::SampleCountFlags::TYPE_1, usage })
+    Image::new(device, ImageDesc { name, format, extent, usage })
 }

@@ -178,5 +178,5 @@ pub(super) fn transient_name(class: MemoryClass) -> &'static str {
 }
 
 fn image_desc(name: &str, desc: ImageDesc, usage: vk::ImageUsageFlags) -> PhysicalImageDesc<'_> {
-    PhysicalImageDesc { name, format: desc.format, extent: desc.extent, samples: desc.samples, usage }
+    PhysicalImageDesc { name, format: desc.format, extent: desc.extent, usage }
 }

@@ -123,7 +123,7 @@ fn clears_that_can_not_be() {
 fn attachments_that_do_not_go_together() {
     let sizes = refusal(|g, c, _, _| {
         let extent = vk::Extent2D { width: 8, height: 4 };
-        let mut small = g.create_image("small", ImageDesc::of_pixels(DEPTH, extent));
+        let mut small = g.create_image("small", ImageDesc { format: DEPTH, extent });
         let pass = g.pass("p").write(c, Access::ColorAttachment, BLACK);
         pass.write(&mut small, Access::DepthAttachment, FAR).finish(());
     });
@@ -185,7 +185,7 @@ fn names_and_dimensions() {
     assert_eq!(wordless, "pass 'p', resource 'list': TexelReadCompute needs a format of texels");
     let extent = vk::Extent2D { width: 4, height: 0 };
     let empty = refusal(|g, _, _, _| {
-        let _ = g.create_image("i", ImageDesc::of_pixels(COLOR, extent));
+        let _ = g.create_image("i", ImageDesc { format: COLOR, extent });
     });
     assert_eq!(empty, "resource 'i': an image needs at least one pixel");
     let formless = refusal(|g, _, _, _| {

@@ -32,7 +32,7 @@ pub(in crate::graph) fn graph<Body>() -> Graph<'static, Body> {
 }
 
 pub(super) fn image(format: vk::Format) -> ImageDesc {
-    ImageDesc::of_pixels(format, vk::Extent2D { width: 64, height: 32 })
+    ImageDesc { format, extent: vk::Extent2D { width: 64, height: 32 } }
 }
 
 pub(super) fn buffer() -> BufferDesc {

@@ -36,7 +36,7 @@ impl Shape {
         let mut graph = graph();
         let extent = vk::Extent2D { width: self.extent, height: 32 };
         let mut target =
-            graph.import_image("target", ImageDesc::of_pixels(COLOR, extent), self.initial, None);
+            graph.import_image("target", ImageDesc { format: COLOR, extent }, self.initial, None);
         let mut list = graph.create_buffer(self.list_name, self.list);
         let mut unread = graph.create_buffer("unread", buffer());
         let transfer = Access::TransferWrite;

@@ -106,7 +106,7 @@ impl LimitInputs<'_> {
         format: vk::Format,
     ) -> Handle<Image> {
         let [width, height] = self.settings.size_px;
-        graph.create_image(name, ImageDesc::of_pixels(format, vk::Extent2D { width, height }))
+        graph.create_image(name, ImageDesc { format, extent: vk::Extent2D { width, height } })
     }
 }
 

@@ -13,8 +13,8 @@ use crate::passes::{
     pipeline::formats::DEPTH_FORMAT,
     place::read,
     polygons::{
-        mesh_pass::{MeshPass, draw_meshes},
-        sampled::{STANDARD_PLACES, move_to_sample},
+        mesh_pass::{MeshPass, draw_meshes, draw_meshes_at},
+        sampled::PLACES_PX,
     },
     splats::draw::{SplatPass, bind_read, draw_splats},
 };
@@ -22,7 +22,7 @@ use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     shaders::{self, config::*},
-    vk::{Attachments, Blend},
+    vk::Blend,
 };
 
 /// Nearer to the depth that is drawn has the greater depth.
@@ -56,7 +56,6 @@ pub(crate) fn objects<'a>(
         color_formats: color_formats(),
         blend: Blend::Replace,
         depth: TEST,
-        attachments: Attachments::default(),
         constants: [].into(),
     };
     let splats = splats.pipelines(&pass, inputs)?;
@@ -67,10 +66,7 @@ pub(crate) fn objects<'a>(
         if !in_part {
             return draw_meshes(pass, inputs, meshes);
         }
-        STANDARD_PLACES.iter().try_for_each(|place| {
-            move_to_sample(pass, inputs, *place);
-            draw_meshes(pass, inputs, meshes)
-        })
+        PLACES_PX.iter().try_for_each(|place_px| draw_meshes_at(pass, inputs, meshes, *place_px))
     });
     Ok(())
 }

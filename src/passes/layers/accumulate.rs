@@ -19,7 +19,7 @@ use crate::{
     graph::{Access, ClearValue, Graph, Handle, Image, Role, Start, execute::Body},
     scene::Settings,
     shaders::{self, config::*},
-    vk::{Attachments, Blend},
+    vk::Blend,
 };
 
 /// What belongs to a layer is not behind its depth.
@@ -42,7 +42,6 @@ fn mesh_pass(settings: &Settings, peeled: bool) -> MeshPass {
         color_formats: [sum_format(settings.accumulate); 2].into(),
         blend: Blend::Add,
         depth: IN_LAYER,
-        attachments: Attachments::default(),
         constants: [(SPEC_SUMMED, SUMMED_LAYER), (SPEC_PEELED, peeled.into())].into(),
     }
 }

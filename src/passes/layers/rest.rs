@@ -19,7 +19,7 @@ use crate::{
     graph::{Access, ClearValue, Graph, Role, Start, execute::Body},
     scene::{Accumulate, Settings},
     shaders::{self, config::*},
-    vk::{Attachments, Blend},
+    vk::Blend,
 };
 
 /// The format of the sum of weights.
@@ -57,7 +57,6 @@ fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> Me
         color_formats: [sum_format(settings.accumulate), weight_format(settings)].into(),
         blend: Blend::Add,
         depth: depth_test(opaque),
-        attachments: Attachments::default(),
         constants,
     }
 }

@@ -18,7 +18,7 @@ use crate::{
     error::Result,
     graph::{Access, Graph, Handle, Image, execute::Body},
     shaders::{self, config::*},
-    vk::{Attachments, Blend},
+    vk::Blend,
 };
 
 /// What it is made of for polygons. `peeled`: only what is behind a layer.
@@ -28,7 +28,6 @@ fn mesh_pass(peeled: bool) -> MeshPass {
         color_formats: [].into(),
         blend: Blend::Replace,
         depth: Some((vk::CompareOp::GREATER, true)),
-        attachments: Attachments::default(),
         constants: [(SPEC_PEELED, peeled.into())].into(),
     }
 }

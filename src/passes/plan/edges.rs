@@ -13,7 +13,7 @@ use crate::{
 
 impl<'a> SurfacePlan<'a> {
     /// Tiles that shade what they sum cover pixels in part where surfaces end; what leaves sums does not. Those of layers do it under so many lights. Polygons beside opaque ones
-    /// do, too, where the device shades samples; not in one of several samples of a picture, which are as many themselves.
+    /// do, too, where the device has an image with room for their samples; not in one of several samples of a picture, which are as many themselves.
     pub(super) fn finish_bands(&mut self, arena: &'a Arena, lights: Option<u32>, limits: &Limits) {
         let transparent = lights.is_some();
         let shades = !self.bands().is_empty() && (transparent || self.tiles_can_shade(&self.settings));
@@ -29,8 +29,9 @@ impl<'a> SurfacePlan<'a> {
         }
         let two_sided = coverage && self.splats.iter().any(|draw| !culls(&draw.variant));
         let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());
-        let samples_polygons =
-            limits.shades_samples && !self.meshes.is_empty() && self.settings.samples.0 == 1;
+        let samples_polygons = !self.meshes.is_empty()
+            && self.settings.samples.0 == 1
+            && self.settings.size_px.iter().all(|side| 2 * side <= limits.max_image_side);
         let most_layers = self.settings.layers.most();
         let SplatMethod::Tiles(bands) = &mut self.method else { return };
         let of_band = |band: &Band<'a>| {

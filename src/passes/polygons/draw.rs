@@ -22,7 +22,7 @@ use crate::{
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::{Accumulate, Settings},
     shaders::{self, config::*},
-    vk::{Attachments, Blend},
+    vk::Blend,
 };
 
 /// What the pass is made of.
@@ -32,7 +32,6 @@ fn mesh_pass(settings: &Settings) -> MeshPass {
         color_formats: [sum_format(settings.accumulate); 2].into(),
         blend: Blend::Replace,
         depth: Some((vk::CompareOp::GREATER, true)),
-        attachments: Attachments::default(),
         constants: [].into(),
     }
 }

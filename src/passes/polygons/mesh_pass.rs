@@ -6,6 +6,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
+        constants::FrameConstants,
         key::{ColorFormats, GraphicsKey, Layout},
         variant::Constants,
     },
@@ -17,7 +18,7 @@ use crate::passes::{
 use crate::{
     error::Result,
     shaders::{self, Shader, config::*},
-    vk::{Attachments, Blend},
+    vk::Blend,
 };
 
 /// What a pass over polygons is made of: its fragment stage, and what it writes.
@@ -27,8 +28,6 @@ pub(crate) struct MeshPass {
     pub blend: Blend,
     /// The depth test and whether it writes, where there is one.
     pub depth: Option<(vk::CompareOp, bool)>,
-    /// The rest of what it draws to.
-    pub attachments: Attachments,
     pub constants: Constants,
 }
 
@@ -38,17 +37,12 @@ impl MeshPass {
         let topology = vk::PrimitiveTopology::TRIANGLE_LIST;
         let outward = (SPEC_OUTWARD, u32::from(draw.chunk.closed && draw.chunk.transparent));
         let constants = self.constants.with([outward]);
-        let vertex = match self.attachments.samples {
-            vk::SampleCountFlags::TYPE_1 => &shaders::POLYGONS_VERT,
-            _ => &shaders::POLYGONS_SAMPLED_VERT,
-        };
         GraphicsKey {
             color_formats: self.color_formats,
             blend: self.blend,
             depth: self.depth,
             cull_clockwise: draw.cull,
-            attachments: self.attachments,
-            ..GraphicsKey::new((vertex, self.fragment), Layout::Splat, topology, constants)
+            ..GraphicsKey::new((&shaders::POLYGONS_VERT, self.fragment), Layout::Splat, topology, constants)
         }
     }
 
@@ -64,11 +58,22 @@ pub(crate) fn draw_meshes(
     inputs: Inputs<'_>,
     pipelines: &[Pipeline],
 ) -> Result<()> {
+    draw_meshes_at(pass, inputs, pipelines, [0.0; 2])
+}
+
+/// The same, of what lies so far right and down from the middle of each pixel.
+pub(crate) fn draw_meshes_at(
+    pass: &Recording<'_, '_>,
+    inputs: Inputs<'_>,
+    pipelines: &[Pipeline],
+    place_px: [f32; 2],
+) -> Result<()> {
     let (device, commands) = (pass.device(), pass.commands());
     for ((number, draw), pipeline) in inputs.meshes.iter().enumerate().zip(pipelines) {
         pass.bind(*pipeline);
         pass.bind_sets(Layout::Splat, 0, &[draw.chunk.set()])?;
-        pass.push(Layout::Splat, &draw.constants)?;
+        let middle_px = [0, 1].map(|i| draw.constants.middle_px[i] - place_px[i]);
+        pass.push(Layout::Splat, &FrameConstants { middle_px, ..draw.constants })?;
         // SAFETY: the piece's indices are alive as long as the scene.
         unsafe { device.cmd_bind_index_buffer(commands, draw.chunk.indices(), 0, vk::IndexType::UINT32) };
         match is_predicated(pass) {

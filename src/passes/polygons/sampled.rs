@@ -1,5 +1,8 @@
-//! Opaque polygons that cover pixels in part, beside splats that do: drawn with four samples of each pixel, each shaded by itself. Tiles lay splats
-//! between them sample by sample; where there are no tiles, what they show is their mean.
+//! Opaque polygons that cover pixels in part, beside splats that do: drawn four times, each time with other places of the pixels in their middles. Tiles lay
+//! splats between them sample by sample; where there are no tiles, what they show is their mean.
+//!
+//! So samples are as far apart as the low-pass filter of splats is wide, on every device alike; those of an attachment with several samples a pixel lie
+//! within it.
 
 use ash::vk;
 
@@ -15,7 +18,7 @@ use crate::passes::{
     polygons::{
         cells::{self, CELLS},
         draw::shaded_mesh_pass,
-        mesh_pass::{MeshPass, draw_meshes},
+        mesh_pass::{MeshPass, draw_meshes_at},
     },
     recording::Recording,
     splats::draw::bind_read,
@@ -25,32 +28,18 @@ use crate::{
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, ImageDesc, Start, execute::Body},
     scene::{Accumulate, Settings},
     shaders::{self, config::*},
-    vk::Attachments,
 };
 
-/// As many as `MOST_POLYGON_SAMPLES`.
-const SAMPLES: vk::SampleCountFlags = vk::SampleCountFlags::TYPE_4;
+/// How far from the middle of a pixel its samples are. Along both axes the parts of the filter beside and between them are a quarter each: they lie where an
+/// eighth and three eighths of a Gaussian are beyond, whose standard deviation is half of the filter's radius, √2 pixels. In 256ths of a pixel, to which
+/// corners are snapped; the mean is the middle, so that the mean depth of a plane is the middle's.
+pub(crate) const PLACES_PX: [[f32; 2]; MOST_POLYGON_SAMPLES as usize] =
+    [[-NEAR_PX, -FAR_PX], [FAR_PX, -NEAR_PX], [-FAR_PX, NEAR_PX], [NEAR_PX, FAR_PX]];
 
-const _: () = assert!(SAMPLES.as_raw() == MOST_POLYGON_SAMPLES);
+const NEAR_PX: f32 = 58.0 / 256.0;
+const FAR_PX: f32 = 208.0 / 256.0;
 
-/// Where the samples of a pixel are, from its middle, on devices that have them at Vulkan's standard places; elsewhere a silhouette is another by less than a pixel.
-pub(crate) const STANDARD_PLACES: [[f32; 2]; MOST_POLYGON_SAMPLES as usize] =
-    [[-0.125, -0.375], [0.375, -0.125], [-0.375, 0.125], [0.125, 0.375]];
-
-/// Records that what is drawn next has in the middle of each pixel what this place of it would have.
-pub(crate) fn move_to_sample(pass: &Recording<'_, '_>, inputs: Inputs<'_>, [right_px, down_px]: [f32; 2]) {
-    let vk::Extent2D { width, height } = inputs.extent();
-    let viewport = vk::Viewport::default()
-        .x(-right_px)
-        .y(-down_px)
-        .width(width as f32)
-        .height(height as f32)
-        .max_depth(1.0);
-    // SAFETY: recording, with a pipeline whose viewport is dynamic; one viewport of a size within the limits, less than a pixel beside the image.
-    unsafe { pass.device().cmd_set_viewport(pass.commands(), 0, &[viewport]) };
-}
-
-/// What they leave, sample by sample.
+/// What they leave, sample by sample: in an image twice as wide and twice as high, the first sample of all pixels at the top left, then to the right and down.
 pub(crate) struct SampledPolygons {
     /// Linear light, 1.
     pub color: Handle<Image>,
@@ -60,10 +49,25 @@ pub(crate) struct SampledPolygons {
 
 /// What the pass is made of that draws them; `precision`: of what it leaves.
 fn sampled_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> MeshPass {
-    MeshPass {
-        fragment: &shaders::POLYGONS_SAMPLED_FRAG,
-        attachments: Attachments { samples: SAMPLES, ..Attachments::default() },
-        ..shaded_mesh_pass(settings, precision, lights)
+    MeshPass { fragment: &shaders::POLYGONS_SAMPLED_FRAG, ..shaded_mesh_pass(settings, precision, lights) }
+}
+
+/// Records that what is drawn next is drawn to the part of the image that this sample has.
+fn draw_to_sample(pass: &Recording<'_, '_>, extent: vk::Extent2D, sample: u32) {
+    let vk::Extent2D { width, height } = extent;
+    let [left, top] = [sample % 2 * width, sample / 2 * height];
+    let viewport = vk::Viewport::default()
+        .x(left as f32)
+        .y(top as f32)
+        .width(width as f32)
+        .height(height as f32)
+        .max_depth(1.0);
+    let offset = vk::Offset2D { x: left as i32, y: top as i32 };
+    let (device, commands) = (pass.device(), pass.commands());
+    // SAFETY: recording; both lie within the attachments, whose sides are within the device's limits.
+    unsafe {
+        device.cmd_set_viewport(commands, 0, &[viewport]);
+        device.cmd_set_scissor(commands, 0, &[vk::Rect2D { offset, extent }]);
     }
 }
 
@@ -78,10 +82,13 @@ pub(crate) fn sampled<'a>(
 ) -> Result<(SampledPolygons, Option<Handle<Image>>)> {
     let (of_samples, keeps_depth) = (outputs.sample_precision(), outputs.layers || outputs.depth);
     let cells = cells::choose(graph, inputs)?;
-    let image = |format| ImageDesc { samples: SAMPLES, ..inputs.image(format) };
+    let extent = inputs.extent();
+    let all = vk::Extent2D { width: 2 * extent.width, height: 2 * extent.height };
     let mut samples = SampledPolygons {
-        color: graph.create_image("samples of polygons", image(sum_format(of_samples))),
-        depth: graph.create_image("depth of samples of polygons", image(DEPTH_FORMAT)),
+        color: graph
+            .create_image("samples of polygons", ImageDesc { format: sum_format(of_samples), extent: all }),
+        depth: graph
+            .create_image("depth of samples of polygons", ImageDesc { format: DEPTH_FORMAT, extent: all }),
     };
     let why = "opaque polygons, where they are nearest, at four places of each pixel: they cover it in part at their silhouettes, as splats do";
     let pass = Pass::new(graph, inputs.source, "polygons", why)
@@ -92,7 +99,10 @@ pub(crate) fn sampled<'a>(
     let pipelines = sampled_mesh_pass(inputs.settings, of_samples, inputs.lights).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_meshes(pass, inputs, pipelines)
+        (0..).zip(PLACES_PX).try_for_each(|(sample, place_px)| {
+            draw_to_sample(pass, extent, sample);
+            draw_meshes_at(pass, inputs, pipelines, place_px)
+        })
     });
 
     let why = "polygons that cover pixels in part: what they show beside tiles";

@@ -39,7 +39,7 @@ pub(crate) fn kernel_texture<'a>(
     cut_off: bool,
 ) -> Result<Handle<Image>> {
     let extent = vk::Extent2D { width: KERNEL_TEXTURE_SIDE, height: KERNEL_TEXTURE_SIDE };
-    let mut texture = graph.create_image("kernel", ImageDesc::of_pixels(FORMAT, extent));
+    let mut texture = graph.create_image("kernel", ImageDesc { format: FORMAT, extent });
     let pass = Pass::new(graph, inputs.source, "kernel texture", "the kernel is read from a texture").attach(
         &mut texture,
         Access::ColorAttachment,

@@ -67,10 +67,7 @@ impl TileImages {
     pub fn of_overflow<'a>(graph: &mut Graph<'a, Body<'a>>, kind: &str, plan: &TilePlan) -> Self {
         let extent = extent_of_slots(plan.most_overflow() as u32, plan.tile_px());
         let mut image = |what, format| {
-            graph.create_image(
-                format_args!("{what} of {kind}overflow tiles"),
-                ImageDesc::of_pixels(format, extent),
-            )
+            graph.create_image(format_args!("{what} of {kind}overflow tiles"), ImageDesc { format, extent })
         };
         let format = sum_format(Accumulate::F32);
         Self {

@@ -67,7 +67,6 @@ impl Targets {
                     name: "sum of samples",
                     format: vk::Format::R32G32B32A32_SFLOAT,
                     extent: vk::Extent2D { width, height },
-                    samples: vk::SampleCountFlags::TYPE_1,
                     usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
                 },
             )?,

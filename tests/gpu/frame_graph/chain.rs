@@ -26,7 +26,7 @@ pub fn chain<'a>(
     result: &Buffer,
 ) -> (Plan, Graph<'a, Body<'a>>, Imports) {
     let mut graph: Graph<'_, Body<'_>> = Graph::new(arena);
-    let desc = ImageDesc::of_pixels(vk::Format::R8G8B8A8_UNORM, EXTENT);
+    let desc = ImageDesc { format: vk::Format::R8G8B8A8_UNORM, extent: EXTENT };
     let bytes = GraphBufferDesc::of_bytes(BYTES);
     let written = BufferState { stages: TRANSFER_WRITE.0, access: TRANSFER_WRITE.1 };
     let read = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };

@@ -54,13 +54,7 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
     let mut staging = Staging::new(&device, "staging", 1 << 16).unwrap();
     staging.push(&buffer, 0, &[3; 1 << 16]).unwrap();
     let extent = vk::Extent2D { width: 33, height: 17 };
-    let desc = ImageDesc {
-        name: "image",
-        format: FORMAT,
-        extent,
-        samples: super::ONE_SAMPLE,
-        usage: vk::ImageUsageFlags::SAMPLED,
-    };
+    let desc = ImageDesc { name: "image", format: FORMAT, extent, usage: vk::ImageUsageFlags::SAMPLED };
     keep(Box::new(Image::new(&device, desc).unwrap()));
     let requirements = vk::MemoryRequirements { size: 4096, alignment: 256, memory_type_bits: !0 };
     keep(Box::new(Memory::new(&device, "memory", requirements, true).unwrap()));

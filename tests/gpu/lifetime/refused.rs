@@ -34,13 +34,7 @@ fn what_a_device_does_not_have_is_refused_and_the_layer_is_silent() {
         (F::R8G8B8A8_UNORM, I::from_raw(1 << 31)),
     ];
     for (format, usage) in images {
-        let desc = ImageDesc {
-            name: "image",
-            format,
-            extent: vk::Extent2D { width: 4, height: 4 },
-            samples: super::ONE_SAMPLE,
-            usage,
-        };
+        let desc = ImageDesc { name: "image", format, extent: vk::Extent2D { width: 4, height: 4 }, usage };
         assert!(Image::new(device, desc).is_err(), "{format:?} {usage:?}");
     }
     let binding = |kind| Binding { kind, stages: vk::ShaderStageFlags::COMPUTE };
@@ -75,7 +69,7 @@ fn what_a_device_does_not_have_is_refused_and_the_layer_is_silent() {
     }
     let transient = |desc: ResourceDesc, usage: Usage| memory_need(device, &desc, usage).is_ok();
     let image = |width, format| {
-        ResourceDesc::Image(graph::ImageDesc::of_pixels(format, vk::Extent2D { width, height: 4 }))
+        ResourceDesc::Image(graph::ImageDesc { extent: vk::Extent2D { width, height: 4 }, format })
     };
     let bytes = |size_bytes| ResourceDesc::Buffer(graph::BufferDesc { size_bytes, texels: F::UNDEFINED });
     assert!(transient(image(4, F::R8G8B8A8_UNORM), Usage::Image(I::SAMPLED)));
