@@ -2,8 +2,8 @@
 // its last paragraph).
 //
 // OPAQUE: the nearest one's. SHADED: the same, lit at once, for tiles that lay splats over them; SAMPLED: so at several places of
-// each pixel, in an image for each, one beside the other. TRANSPARENT: those of a layer, added (SUMMED_LAYER); or added to all that is left for the last layer, lit (SUMMED_REST).
-// Permutations: opaque shaded sampled transparent
+// each pixel, in an image for each, one beside the other. HIDING: their depth alone. TRANSPARENT: those of a layer, added (SUMMED_LAYER); or added to all that is left for the last layer, lit (SUMMED_REST).
+// Permutations: opaque shaded sampled hiding transparent
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"
@@ -31,7 +31,7 @@ layout(location = 1) in vec3 normal;      // view space, on the side from which 
 layout(constant_id = SPEC_HALF_FLOATS) const bool HALF_FLOATS = false;
 
 layout(location = 0) out vec4 shown; // linear light, 1
-#else
+#elif !defined(HIDING)
 layout(location = 0) out vec4 color_sum;  // linear albedo, 1; of the rest: alpha * linear color, alpha
 layout(location = 1) out vec4 normal_sum; // normal, alpha; of the rest: 1
 #endif
@@ -72,7 +72,7 @@ void main()
 #if defined(SHADED)
     vec3 light = shaded(color_alpha.rgb, n, to_eye());
     shown = vec4(HALF_FLOATS ? min(light, HALF_FLOAT_MAX) : light, 1.0);
-#else
+#elif !defined(HIDING)
     color_sum = vec4(color_alpha.rgb, 1.0);
     normal_sum = vec4(n, color_alpha.a);
 #endif

@@ -52,15 +52,13 @@ float own_depth_of(int row)
     return sums.y > 0.0 ? depth_of_mean(visible[row], mean) : 0.0;
 }
 
-// Puts polygons behind what a pixel shows already: so much of it, or what is left. `hiding`, `own`: as in shade_edges.
-void put_behind(Polygons polygons, float whole, inout vec4 light, inout float hiding, inout float own)
+// Puts polygons behind what a pixel shows already: so much of it, or what is left. `own`: as in shade_edges; where half is covered with them it is left to their
+// depth at the middle of the pixel, which others have.
+void put_behind(Polygons polygons, float whole, inout vec4 light, inout float own)
 {
     float part = min(whole, 1.0 - light.a);
-    if (KEEPS_DEPTH || WITH_DEPTH) {
-        bool covers_half = light.a < 0.5 && light.a + part >= 0.5;
-        float depth = depth_of_half(polygons, light.a);
-        hiding = covers_half ? depth : hiding;
-        own = covers_half ? depth : own;
+    if (WITH_DEPTH) {
+        own = light.a < 0.5 && light.a + part >= 0.5 ? 0.0 : own;
     }
     light += part * vec4(polygons.light, 1.0);
 }
@@ -129,7 +127,7 @@ void shade_edges(Range range)
             light[row] += part * vec4(color, 1.0);
             bool ends = !(surface.weight > 0.0) || light[row].a >= 1.0;
             if (WITH_POLYGONS) {
-                put_behind(polygons, beside ? both - part : 0.0, light[row], hiding[row], own[row]);
+                put_behind(polygons, beside ? both - part : 0.0, light[row], own[row]);
                 polygons_left[row] = beside ? visible[row] : polygons_left[row];
                 // Behind polygons that cover a part there may be more, where splats are left.
                 ends = light[row].a >= 1.0 || (beside ? POLYGON_SAMPLES == 1 || visible[row] == 0.0 : ends);
@@ -150,7 +148,7 @@ void shade_edges(Range range)
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         if (WITH_POLYGONS) {
             Polygons rest = polygons_between(0.0, polygons_left[row], row);
-            put_behind(rest, rest.share, light[row], hiding[row], own[row]);
+            put_behind(rest, rest.share, light[row], own[row]);
         }
         vec4 seen = light[row];
         seen.rgb = HALF_FLOATS ? min(seen.rgb, HALF_FLOAT_MAX) : seen.rgb;

@@ -15,13 +15,11 @@ struct Polygons {
     vec3 light;     // of what they cover
     float share;    // how much of the pixel that is
     float depth;    // in the mean, which is that at the center where one plane covers all; 0 where there are none
-    float nearest;  // of one of them at least,
-    float of_more;  // and of two
 };
 
 Polygons polygons_between(float far, float near, int row)
 {
-    Polygons polygons = Polygons(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    Polygons polygons = Polygons(vec3(0.0), 0.0, 0.0);
     if (!WITH_POLYGONS) {
         return polygons;
     }
@@ -32,22 +30,12 @@ Polygons polygons_between(float far, float near, int row)
         ivec2 at = pixel + ivec2(i & 1, i >> 1) * size_px;
         float w = texelFetch(polygon_depth, at, 0).r;
         bool between = w > far && w <= near;
-        w = between ? w : 0.0;
         count += between ? 1.0 : 0.0;
         polygons.light += between ? texelFetch(shown_before, at, 0).rgb : vec3(0.0);
-        polygons.depth += w;
-        polygons.of_more = max(polygons.of_more, min(polygons.nearest, w));
-        polygons.nearest = max(polygons.nearest, w);
+        polygons.depth += between ? w : 0.0;
     }
     polygons.light /= max(count, 1.0);
     polygons.depth /= max(count, 1.0);
     polygons.share = count / float(POLYGON_SAMPLES);
     return polygons;
-}
-
-// The depth at which what they cover, and what is `before` them, is half of the pixel.
-float depth_of_half(Polygons polygons, float before)
-{
-    bool takes_more = POLYGON_SAMPLES > 1 && before + 1.0 / float(POLYGON_SAMPLES) < 0.5;
-    return takes_more && polygons.of_more > 0.0 ? polygons.of_more : polygons.nearest;
 }

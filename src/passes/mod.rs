@@ -121,8 +121,7 @@ pub(crate) fn frame<'a>(
         let polygons = !plan.opaque.meshes.is_empty();
         host::depth_out::surface_depth(graph, inputs, (&opaque, own_depth.as_ref()), polygons, depth)?;
         if let (Some(plan), Some(objects)) = (&plan.objects, objects) {
-            let in_part = opaque.shows_polygons == ShownPolygons::InPart;
-            host::objects_out::objects(graph, inputs.of(plan), (depth, in_part), objects)?;
+            host::objects_out::objects(graph, inputs.of(plan), depth, objects)?;
         }
         if let (Some(layers), Some(target)) = (layers.take(), target) {
             host::layers_out::layers_alone(graph, inputs, &layers, (target, target_format))?;

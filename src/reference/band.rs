@@ -168,7 +168,7 @@ fn cover_edges(frame: &Frame, rows: &Range<u32>, fronts: &mut [Front], pixels: &
     let mut seen_to = vec![f64::INFINITY; pixels.len()];
     for (i, (fragments, polygons)) in fragments.into_iter().zip(&polygons).enumerate() {
         let ray = frame.ray(rows, i);
-        let opaque = surfaces(frame, ray, polygons, fragments);
+        let opaque = surfaces(frame, ray, (fronts[i].nearest_polygon, polygons), fragments);
         pixels[i].color = opaque.over(frame.background);
         pixels[i].note_margin(opaque.margin);
         fronts[i].hide_beyond(opaque.hides_beyond);

@@ -16,6 +16,8 @@ pub(super) struct VisiblePolygon {
 pub(super) struct Front {
     pub splats: Nearest,
     pub polygon: Option<VisiblePolygon>,
+    /// The nearest polygon, even behind splats.
+    pub nearest_polygon: Option<VisiblePolygon>,
     /// Splats are shifted toward the eye wherever they are, not only before polygons: [`Transition::Paper`], where the
     /// scene has opaque polygons.
     pub shifts_all: bool,
@@ -34,9 +36,10 @@ impl Front {
             Some(polygon) => Decision::at_most(polygon.z, splats.z_shifted),
             None => Decision::CERTAIN,
         };
+        let nearest_polygon = polygon;
         let polygon = polygon.filter(|_| visible.holds);
         let shifts_all = has_opaque_polygons && transition == Transition::Paper;
-        (Self { splats, polygon, shifts_all }, visible.margin)
+        (Self { splats, polygon, nearest_polygon, shifts_all }, visible.margin)
     }
 
     fn polygon_z(&self) -> f64 {

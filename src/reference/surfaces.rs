@@ -7,6 +7,7 @@ use super::band::Frame;
 use super::covering::covered;
 use super::creases::CreasedSums;
 use super::fragment::Fragment;
+use super::front::VisiblePolygon;
 use super::layers::{Source, Translucent, take_nearest_side};
 use super::polygons::SampledPolygon;
 use super::splat::DrawnSplat;
@@ -23,7 +24,7 @@ pub(super) struct Opaque {
     /// Linear, multiplied by alpha.
     pub color: DVec3,
     pub alpha: f64,
-    /// The shifted depth of what covers half of it: beyond it transparent things are hidden.
+    /// Transparent things are hidden beyond it: the shifted depth of splats with which half of the pixel is covered, or the depth of the polygon in its middle.
     pub hides_beyond: f64,
     /// What is beyond this depth is hidden by what covers all of the pixel.
     pub seen_to: f64,
@@ -65,11 +66,7 @@ impl Opaque {
         let mean = group.iter().map(color).sum::<DVec3>() / group.len() as f64;
         let margins = group.iter().map(|polygon| polygon.margin);
         self.margin = margins.fold(self.margin, f64::min);
-        let mut depths: Vec<_> = group.iter().map(|polygon| polygon.nearest.z).collect();
-        depths.sort_by(f64::total_cmp);
-        // So many samples of them and what is before them are half of the pixel.
-        let count = ((0.5 - self.alpha) * frame.polygon_offsets_px.len() as f64).ceil().max(1.0) as usize;
-        self.add(part, mean, depths[count.min(depths.len()) - 1]);
+        self.add(part, mean, f64::INFINITY);
     }
 
     /// Over a straight color with alpha, straight again; black where nothing is seen.
@@ -80,11 +77,12 @@ impl Opaque {
     }
 }
 
-/// All opaque surfaces of a pixel, in the order of their depths. `fragments`: of all opaque splats. `polygons`: at each sample the nearest.
+/// All opaque surfaces of a pixel, in the order of their depths. `fragments`: of all opaque splats. `middle`, `polygons`: the nearest at the pixel's middle, and at
+/// each sample.
 pub(super) fn surfaces(
     frame: &Frame,
     ray: DVec3,
-    polygons: &[SampledPolygon],
+    (middle, polygons): (Option<VisiblePolygon>, &[SampledPolygon]),
     mut fragments: Vec<Translucent>,
 ) -> Opaque {
     let samples = frame.polygon_offsets_px.len();
@@ -144,11 +142,7 @@ pub(super) fn surfaces(
     }
     let share = share_of(&left);
     seen.add_polygons(frame, share, &left);
-    // Of polygons alone, at half of the samples at least.
-    let mut depths: Vec<_> = polygons.iter().map(|polygon| polygon.nearest.z).collect();
-    depths.sort_by(f64::total_cmp);
-    let half = depths.get(samples.div_ceil(2) - 1);
-    seen.hides_beyond = half.map_or(seen.hides_beyond, |half| seen.hides_beyond.min(*half));
+    seen.hides_beyond = middle.map_or(seen.hides_beyond, |middle| seen.hides_beyond.min(middle.z));
     seen
 }
 

@@ -12,10 +12,7 @@ use crate::passes::{
     pass::Pass,
     pipeline::formats::DEPTH_FORMAT,
     place::read,
-    polygons::{
-        mesh_pass::{MeshPass, draw_meshes, draw_meshes_at},
-        sampled::PLACES_PX,
-    },
+    polygons::mesh_pass::{MeshPass, draw_meshes},
     splats::draw::{SplatPass, bind_read, draw_splats},
 };
 use crate::{
@@ -28,12 +25,11 @@ use crate::{
 /// Nearer to the depth that is drawn has the greater depth.
 const TEST: Option<(vk::CompareOp, bool)> = Some((vk::CompareOp::GREATER, true));
 
-/// Declares the passes. `surface`: the depth that is drawn, as [`super::depth_out`] leaves it; `in_part`: of polygons it is that of a sample, so that they are
-/// drawn at each.
+/// Declares the passes. `surface`: the depth that is drawn, as [`super::depth_out`] leaves it.
 pub(crate) fn objects<'a>(
     graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
-    (surface, in_part): (&Handle<Image>, bool),
+    surface: &Handle<Image>,
     objects: &mut Handle<Image>,
 ) -> Result<()> {
     let lists = Lists::make(graph, inputs, "objects' ")?;
@@ -63,10 +59,7 @@ pub(crate) fn objects<'a>(
     pass.finish(move |pass| {
         bind_read(pass)?;
         draw_splats(pass, inputs, splats)?;
-        if !in_part {
-            return draw_meshes(pass, inputs, meshes);
-        }
-        PLACES_PX.iter().try_for_each(|place_px| draw_meshes_at(pass, inputs, meshes, *place_px))
+        draw_meshes(pass, inputs, meshes)
     });
     Ok(())
 }

@@ -26,7 +26,7 @@ use crate::{
 };
 
 /// What the pass is made of.
-fn mesh_pass(settings: &Settings) -> MeshPass {
+pub(super) fn mesh_pass(settings: &Settings) -> MeshPass {
     MeshPass {
         fragment: &shaders::POLYGONS_OPAQUE_FRAG,
         color_formats: [sum_format(settings.accumulate); 2].into(),

@@ -17,8 +17,8 @@ use crate::passes::{
     plan::outputs::Outputs,
     polygons::{
         cells::{self, CELLS},
-        draw::shaded_mesh_pass,
-        mesh_pass::{MeshPass, draw_meshes_at},
+        draw::{mesh_pass, shaded_mesh_pass},
+        mesh_pass::{MeshPass, draw_meshes, draw_meshes_at},
     },
     recording::Recording,
     splats::draw::bind_read,
@@ -33,7 +33,7 @@ use crate::{
 /// How far from the middle of a pixel its samples are. Along both axes the parts of the filter beside and between them are a quarter each: they lie where an
 /// eighth and three eighths of a Gaussian are beyond, whose standard deviation is half of the filter's radius, √2 pixels. In 256ths of a pixel, to which
 /// corners are snapped; the mean is the middle, so that the mean depth of a plane is the middle's.
-pub(crate) const PLACES_PX: [[f32; 2]; MOST_POLYGON_SAMPLES as usize] =
+const PLACES_PX: [[f32; 2]; MOST_POLYGON_SAMPLES as usize] =
     [[-NEAR_PX, -FAR_PX], [FAR_PX, -NEAR_PX], [-FAR_PX, NEAR_PX], [NEAR_PX, FAR_PX]];
 
 const NEAR_PX: f32 = 58.0 / 256.0;
@@ -71,8 +71,8 @@ fn draw_to_sample(pass: &Recording<'_, '_>, extent: vk::Extent2D, sample: u32) {
     }
 }
 
-/// Declares the pass that draws them, and the one that brings what they show to `shown`, of that precision; and, where layers or a host want it, leaves the
-/// depth from which on they cover half of a pixel, the second answer.
+/// Declares the pass that draws them, and the one that brings what they show to `shown`, of that precision; and, where layers or a host want it, that of
+/// their depth at the middles of pixels, the second answer.
 pub(crate) fn sampled<'a>(
     graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
@@ -80,7 +80,7 @@ pub(crate) fn sampled<'a>(
     lights: Option<&Handle<Buffer>>,
     outputs: Outputs,
 ) -> Result<(SampledPolygons, Option<Handle<Image>>)> {
-    let (of_samples, keeps_depth) = (outputs.sample_precision(), outputs.layers || outputs.depth);
+    let of_samples = outputs.sample_precision();
     let cells = cells::choose(graph, inputs)?;
     let extent = inputs.extent();
     let all = vk::Extent2D { width: 2 * extent.width, height: 2 * extent.height };
@@ -106,25 +106,12 @@ pub(crate) fn sampled<'a>(
     });
 
     let why = "polygons that cover pixels in part: what they show beside tiles";
-    let mut depth = keeps_depth.then(|| graph.create_image("depth of polygons", inputs.image(DEPTH_FORMAT)));
-    let mut pass = Pass::new(graph, inputs.source, "resolve polygons", why)
+    let pass = Pass::new(graph, inputs.source, "resolve polygons", why)
         .read(sums(BIND_SUMS_POLYGON_COLORS), &samples.color, Access::SampledFragment)
         .attach(shown, Access::ColorAttachment, Start::Discard);
-    if let Some(depth) = &mut depth {
-        pass = pass.read(sums(BIND_SUMS_DEPTH), &samples.depth, Access::SampledFragment).attach(
-            depth,
-            Access::DepthAttachment,
-            Start::Discard,
-        );
-    }
-    let fragment = match keeps_depth {
-        true => &shaders::POLYGONS_RESOLVE_DEPTH_FRAG,
-        false => &shaders::POLYGONS_RESOLVE_FRAG,
-    };
     let pipeline = pass.graphics(GraphicsKey {
         color_formats: [sum_format(precision)].into(),
-        depth: keeps_depth.then_some((vk::CompareOp::ALWAYS, true)),
-        ..GraphicsKey::fullscreen(fragment, Layout::Finalize, [].into())
+        ..GraphicsKey::fullscreen(&shaders::POLYGONS_RESOLVE_FRAG, Layout::Finalize, [].into())
     })?;
     let constants = inputs.finalize_constants();
     pass.finish(move |pass| {
@@ -134,5 +121,31 @@ pub(crate) fn sampled<'a>(
         pass.draw([3, 1]);
         Ok(())
     });
+    let keeps_depth = outputs.layers || outputs.depth;
+    let depth = keeps_depth.then(|| at_the_middle(graph, inputs, cells.as_ref())).transpose()?;
     Ok((samples, depth))
+}
+
+/// Declares the pass that leaves their depth at the middles of pixels.
+fn at_the_middle<'a>(
+    graph: &mut Graph<'a, Body<'a>>,
+    inputs: Inputs<'a>,
+    cells: Option<&Handle<Buffer>>,
+) -> Result<Handle<Image>> {
+    let mut depth = graph.create_image("depth of polygons", inputs.image(DEPTH_FORMAT));
+    let why = "polygons that cover pixels in part: layers and hosts have the depth of those that cover half of one, which is that at its middle";
+    let pass = Pass::new(graph, inputs.source, "depth of polygons", why)
+        .attach(&mut depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)))
+        .read_if(CELLS, cells, Access::IndirectRead);
+    let pipelines = MeshPass {
+        fragment: &shaders::POLYGONS_HIDING_FRAG,
+        color_formats: [].into(),
+        ..mesh_pass(inputs.settings)
+    }
+    .pipelines(&pass, inputs)?;
+    pass.finish(move |pass| {
+        bind_read(pass)?;
+        draw_meshes(pass, inputs, pipelines)
+    });
+    Ok(depth)
 }

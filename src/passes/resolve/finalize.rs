@@ -59,7 +59,7 @@ pub(crate) enum ShownPolygons {
     None,
     /// Where they have a depth, all of the pixel is theirs.
     Whole,
-    /// They cover pixels in part, and the depth, if there is one, tells where that is half of them.
+    /// They cover pixels in part, and the depth, if there is one, is that at their middles.
     InPart,
 }
 
