@@ -1,9 +1,9 @@
 // Polygons: their attributes, for the deferred shading that splats have too (Guennebaud et al. 2006, section 5.1, step 2 and
 // its last paragraph).
 //
-// OPAQUE: the nearest one's. SHADED: the same, lit at once, for tiles that lay splats over them. TRANSPARENT: those of a layer, added
-// (SUMMED_LAYER); or added to all that is left for the last layer, lit (SUMMED_REST).
-// Permutations: opaque shaded transparent
+// OPAQUE: the nearest one's. SHADED: the same, lit at once, for tiles that lay splats over them; SAMPLED: so at several places of
+// each pixel, in an image for each, one beside the other. HIDING: their depth alone. TRANSPARENT: those of a layer, added (SUMMED_LAYER); or added to all that is left for the last layer, lit (SUMMED_REST).
+// Permutations: opaque shaded sampled hiding transparent
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"
@@ -20,6 +20,10 @@
 #define PLANES_BINDING BIND_READ_PLANES
 #include "inc/planes.glsl"
 
+#if defined(SAMPLED)
+#define SHADED
+#endif
+
 layout(location = 0) in vec4 color_alpha; // linear
 layout(location = 1) in vec3 normal;      // view space, on the side from which the corners are counterclockwise
 
@@ -27,15 +31,25 @@ layout(location = 1) in vec3 normal;      // view space, on the side from which 
 layout(constant_id = SPEC_HALF_FLOATS) const bool HALF_FLOATS = false;
 
 layout(location = 0) out vec4 shown; // linear light, 1
-#else
+#elif !defined(HIDING)
 layout(location = 0) out vec4 color_sum;  // linear albedo, 1; of the rest: alpha * linear color, alpha
 layout(location = 1) out vec4 normal_sum; // normal, alpha; of the rest: 1
 #endif
 
+// From the view's axis.
+vec2 place_px()
+{
+    vec2 at = gl_FragCoord.xy;
+#if defined(SAMPLED)
+    at -= vec2(SIZE_PX) * vec2(greaterThan(at, vec2(SIZE_PX)));
+#endif
+    return at - frame.middle_px;
+}
+
 // The direction to the eye.
 vec3 to_eye()
 {
-    return direction_to_eye(vec3((gl_FragCoord.xy - frame.middle_px) / frame.focal_px, 1.0));
+    return direction_to_eye(vec3(place_px() / frame.focal_px, 1.0));
 }
 
 void main()
@@ -44,7 +58,7 @@ void main()
     if (any(isnan(color_alpha))) {
         discard;
     }
-    if (PLANES > 0 && is_cut_off(gl_FragCoord.xy - frame.middle_px, gl_FragCoord.z)) {
+    if (PLANES > 0 && is_cut_off(place_px(), gl_FragCoord.z)) {
         discard;
     }
 #if defined(TRANSPARENT)
@@ -58,7 +72,7 @@ void main()
 #if defined(SHADED)
     vec3 light = shaded(color_alpha.rgb, n, to_eye());
     shown = vec4(HALF_FLOATS ? min(light, HALF_FLOAT_MAX) : light, 1.0);
-#else
+#elif !defined(HIDING)
     color_sum = vec4(color_alpha.rgb, 1.0);
     normal_sum = vec4(n, color_alpha.a);
 #endif

@@ -1,8 +1,8 @@
 // Visibility, accumulation and shading (finalize.frag.glsl) of a tile's splats: what a pixel shows, in place of sums, which never
 // leave the registers; where nobody else reads them. Overflow tiles are left to tile_shade_overflow.comp.glsl.
 //
-// HIDDEN: what the tile's visible depth hides is not summed (tile/hidden.glsl).
-// Permutations: column pixel | _ hidden
+// HIDDEN: what the tile's visible depth hides is not summed (tile/hidden.glsl). POLYGONS: polygons cover pixels in part (tile/polygons.glsl).
+// Permutations: column pixel | _ hidden polygons
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -29,9 +29,7 @@ layout(set = 0, binding = BIND_VISIBLE_DEPTH) writeonly uniform image2D visible_
 // WITH_DEPTH: a host wants the depth of what is seen itself: the mean of its splats' own, not shifted; 0 where nothing is.
 layout(set = 0, binding = BIND_NORMALS) writeonly uniform image2D own_depth;
 
-// WITH_POLYGONS: these were drawn and shaded as if there were no splats.
-layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D shown_before;
-layout(set = 0, binding = BIND_POLYGON_DEPTH) uniform texture2D polygon_depth;
+#include "tile/polygons.glsl"
 
 void begin_surface()
 {
@@ -54,10 +52,15 @@ float own_depth_of(int row)
     return sums.y > 0.0 ? depth_of_mean(visible[row], mean) : 0.0;
 }
 
-// What a polygon shows at the pixel, behind all splats that it does not hide.
-vec4 polygon_behind(int row)
+// Puts polygons behind what a pixel shows already: so much of it, or what is left. `own`: as in shade_edges; where half is covered with them it is left to their
+// depth at the middle of the pixel, which others have.
+void put_behind(Polygons polygons, float whole, inout vec4 light, inout float own)
 {
-    return WITH_POLYGONS ? texelFetch(shown_before, pixel_within_image(row), 0) : vec4(0.0);
+    float part = min(whole, 1.0 - light.a);
+    if (WITH_DEPTH) {
+        own = light.a < 0.5 && light.a + part >= 0.5 ? 0.0 : own;
+    }
+    light += part * vec4(polygons.light, 1.0);
 }
 
 // Surface after surface, until each pixel of the tile is covered or nothing is left: what lies side by side in a pixel adds up. But what ends toward the
@@ -65,7 +68,8 @@ vec4 polygon_behind(int row)
 void shade_edges(Range range)
 {
     vec4 light[ROWS];
-    float nearest_polygon[ROWS];
+    float polygons_left[ROWS]; // up to this depth polygons are not there yet
+    float beside_depth[ROWS];  // of polygons before the surface; 0 where there are none
     float hiding[ROWS]; // depth of what covers half of a pixel, for transparent layers
     vec2 ended[ROWS];   // how what covers falls (tile/covering.glsl)
     float own[ROWS];    // WITH_DEPTH: the same, not shifted; where nothing covers as much, of what is nearest
@@ -76,7 +80,8 @@ void shade_edges(Range range)
         own[row] = 0.0;
         before[row] = INFINITELY_NEAR;
         before_away[row] = INFINITELY_NEAR;
-        nearest_polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel_within_image(row), 0).r : 0.0;
+        polygons_left[row] = INFINITELY_NEAR;
+        begin_behind_polygons(row);
     }
     // A shader's loops have an end (tile/work.glsl): there are as many surfaces as it has walks over so many splats.
     uint most = clamp(PART_LENGTH / max(range.end - range.first, 1), 1, MOST_EDGE_SURFACES);
@@ -87,7 +92,8 @@ void shade_edges(Range range)
         bool left = false;
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             left = left || visible[row] > 0.0;
-            polygon[row] = max(nearest_polygon[row], visible[row]);
+            beside_depth[row] = polygons_between(visible[row], polygons_left[row], row).depth;
+            polygon[row] = max(beside_depth[row], visible[row]);
         }
         // Behind most silhouettes of a tile there is nothing.
         if (number > 0 && votes_of_tile(left).y == 0) {
@@ -105,28 +111,40 @@ void shade_edges(Range range)
                 surface.weight += beyond.weight;
             }
             float opacity = opacity_of(row);
-            bool beside = nearest_polygon[row] > visible[row];
-            if (WITH_POLYGONS && beside) {
-                // The polygon is the nearest surface; splats of the same one blend with it (inc/resolve.glsl).
+            bool beside = WITH_POLYGONS && beside_depth[row] > 0.0;
+            Polygons polygons = polygons_between(visible[row], polygons_left[row], row);
+            float both = polygons.share;
+            if (beside) {
+                // Polygons are the nearest surface; splats of the same one blend with them (inc/resolve.glsl), in all that either of both covers.
+                both = surface.weight > 0.0 ? max(opacity, both) : both;
                 opacity = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight / WHOLE_SEAM_SUM), 1.0);
+                opacity *= both;
             }
             float behind = max(dot(fall[row], ended[row]), 0.0) / max(max(dot(fall[row], fall[row]), dot(ended[row], ended[row])), 1e-12);
-            behind = WITH_POLYGONS && beside ? 0.0 : behind;
+            behind = beside ? 0.0 : behind;
             ended[row] += (1.0 - behind) * fall[row];
             float part = mix(min(opacity, 1.0 - light[row].a), max(opacity - light[row].a, 0.0), behind);
             part = surface.weight > 0.0 ? part : 0.0;
             bool covers_half = light[row].a < 0.5 && light[row].a + part >= 0.5;
             hiding[row] = covers_half ? visible[row] : hiding[row];
             if (WITH_DEPTH) {
-                own[row] = part > 0.0 && (covers_half || own[row] == 0.0) ? own_depth_of(row) : own[row];
+                float depth = max(own_depth_of(row), beside ? beside_depth[row] : 0.0);
+                own[row] = part > 0.0 && (covers_half || own[row] == 0.0) ? depth : own[row];
             }
             light[row] += part * vec4(color, 1.0);
-            bool ends = !(surface.weight > 0.0) || WITH_POLYGONS && beside || light[row].a >= 1.0;
+            bool ends = !(surface.weight > 0.0) || light[row].a >= 1.0;
+            if (WITH_POLYGONS) {
+                put_behind(polygons, beside ? both - part : 0.0, light[row], own[row]);
+                polygons_left[row] = beside ? visible[row] : polygons_left[row];
+                // Behind polygons that cover a part there may be more, where splats are left.
+                ends = light[row].a >= 1.0 || (beside ? POLYGON_SAMPLES == 1 || visible[row] == 0.0 : ends);
+                go_behind_polygons(beside, row);
+            }
             if (BY_SIDES) {
-                before_away[row] = ends ? NOTHING_LEFT : visible_away[row] ? visible[row] : before_away[row];
-                before[row] = ends ? NOTHING_LEFT : visible_away[row] ? before[row] : visible[row];
+                before_away[row] = ends ? NOTHING_LEFT : visible_away[row] && !beside ? visible[row] : before_away[row];
+                before[row] = ends ? NOTHING_LEFT : visible_away[row] || beside ? before[row] : visible[row];
             } else {
-                before[row] = ends ? NOTHING_LEFT : visible[row];
+                before[row] = ends ? NOTHING_LEFT : beside ? before[row] : visible[row];
             }
             left = left || !ends;
         }
@@ -135,17 +153,18 @@ void shade_edges(Range range)
         }
     }
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-        vec4 seen = light[row] + (1.0 - light[row].a) * polygon_behind(row);
+        if (WITH_POLYGONS) {
+            Polygons rest = polygons_between(0.0, polygons_left[row], row);
+            put_behind(rest, rest.share, light[row], own[row]);
+        }
+        vec4 seen = light[row];
         seen.rgb = HALF_FLOATS ? min(seen.rgb, HALF_FLOAT_MAX) : seen.rgb;
         imageStore(shown, pixel_of(row), seen);
         if (KEEPS_DEPTH) {
             imageStore(visible_depth, pixel_of(row), vec4(hiding[row]));
         }
         if (WITH_DEPTH) {
-            // Of a pixel that splats cover by less than half, a polygon behind them has the rest.
-            bool of_polygon = WITH_POLYGONS && light[row].a < 0.5 && nearest_polygon[row] > 0.0;
-            float nearest = max(own[row], nearest_polygon[row]);
-            imageStore(own_depth, pixel_of(row), vec4(of_polygon ? nearest_polygon[row] : nearest));
+            imageStore(own_depth, pixel_of(row), vec4(own[row]));
         }
     }
 }

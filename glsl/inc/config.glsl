@@ -260,6 +260,7 @@
 #define SHARP_SUM 1.7               // Of a sharp surface that faces the eye, whose sums vary: what weights over the overlap are multiplied by (`inc/edges.glsl`).
 #define SHARP_FACING 0.3            // From this cosine between the normal and the ray on more and more, up to twice that.
 #define WHOLE_EDGE_SUM 0.79         // From this sum over the overlap on a pixel is covered, unless the surface ends there.
+#define MOST_POLYGON_SAMPLES 4      // Samples of a pixel at which polygons are drawn, where they cover pixels in part.
 #define WHOLE_SEAM_SUM 0.4          // From this sum on, splats hide the polygons of the same surface: at a seam half of a surface's are there.
 #define EYE_DOME_STRENGTH 0.7         // How much darker eye-dome lighting makes a slope of 1 all around, as an exponent.
 #define MOST_STACKED_SURFACES 8.0   // Surfaces that the last layer counts as, at most: a rim before it would count it as a thousand.

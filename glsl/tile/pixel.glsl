@@ -25,6 +25,9 @@ float visible[ROWS]; // depth of the surface, shifted by epsilon
 float before[ROWS];  // PEELS: depth of the layer before
 bool visible_away[ROWS];  // BY_SIDES: the surface faces away; `before` is of those that do not,
 float before_away[ROWS]; // and this is of those that do
+#if defined(POLYGONS)
+float behind_polygon[ROWS]; // depth of polygons that are there already, which cover the pixel in part: what is of their surface, or nearer, is, too
+#endif
 float opaque[ROWS];  // OF_LAYERS: depth of opaque things
 float polygon[ROWS]; // WITH_POLYGONS: depth of polygons, or of splats, where those are nearer
 vec4 colors[ROWS];   // weighted color, weight
@@ -100,6 +103,31 @@ bool covers(vec3 uvw, float depth, bool away, float kept, int row)
     return inside && beyond_near && (!CUTS || part_of(kept) > 0.0) && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
 }
 
+// No polygon is there.
+void begin_behind_polygons(int row)
+{
+#if defined(POLYGONS)
+    behind_polygon[row] = 1e30;
+#endif
+}
+
+// Those of depth `polygon` are, if `beside`.
+void go_behind_polygons(bool beside, int row)
+{
+#if defined(POLYGONS)
+    behind_polygon[row] = beside ? polygon[row] : behind_polygon[row];
+#endif
+}
+
+bool is_behind_polygons(float depth, float toward, int row)
+{
+#if defined(POLYGONS)
+    return depth < shifted(behind_polygon[row], toward);
+#else
+    return true;
+#endif
+}
+
 float r2_of(vec3 uvw)
 {
     float r2 = dot(uvw.xy, uvw.xy);
@@ -112,7 +140,7 @@ void see(Splat splat, Column column, float kept, int row)
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
     bool away = is_away(splat);
-    bool inside = covers(uvw, depth, away, kept, row) && (!OF_LAYERS || depth >= opaque[row]);
+    bool inside = covers(uvw, depth, away, kept, row) && is_behind_polygons(depth, column.toward, row) && (!OF_LAYERS || depth >= opaque[row]);
     float behind = shifted(depth, shift_of(splat));
     if (BY_SIDES) {
         visible_away[row] = inside && behind > visible[row] ? away : visible_away[row];
@@ -142,6 +170,7 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     bool inside = covers(uvw, depth, away, kept, row) && (!BY_SIDES || takes_both_sides || away == visible_away[row]);
     bool covering = inside;
     if (WITH_POLYGONS) {
+        inside = inside && is_behind_polygons(depth, column.toward, row);
         inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
             && depth >= FORMULA(FORMULA_TOWARD_VIEWER, shifted(polygon[row], column.toward));
     } else {

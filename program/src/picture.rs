@@ -126,12 +126,12 @@ impl PictureArguments {
     }
 }
 
-/// How many samples pixels of a scene have where the command line does not say it. With polygons they are several: triangles cover a pixel or
-/// do not, and their outlines are stairs in one. Not where they can't be taken.
+/// How many samples pixels of a scene have where the command line does not say it. With polygons they are several: in one, outlines of triangles are stairs
+/// without splats beside them, and with splats twice as far from what there is. Not where they can't be taken.
 pub fn samples_unsaid(settings: &Settings, scene: &Scene, renderer: &Renderer) -> Samples {
-    let is_stairs = !scene.meshes.is_empty() && settings.edges == Edges::Coverage;
+    let has_outlines = !scene.meshes.is_empty() && settings.edges == Edges::Coverage;
     let several = Settings { samples: SAMPLES_OF_POLYGONS, ..settings.clone() };
-    let can = is_stairs && renderer.check_settings(&several).is_ok();
+    let can = has_outlines && renderer.check_settings(&several).is_ok();
     if can { SAMPLES_OF_POLYGONS } else { settings.samples }
 }
 

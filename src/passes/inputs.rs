@@ -93,6 +93,11 @@ impl<'a> Inputs<'a> {
         (1..).zip(self.bands).map(of)
     }
 
+    /// Whether polygons are drawn with several samples of a pixel.
+    pub(crate) fn samples_polygons(&self) -> bool {
+        !self.meshes.is_empty() && self.bands.iter().any(|band| band.plan.samples_polygons)
+    }
+
     pub(crate) fn extent(&self) -> vk::Extent2D {
         let [width, height] = self.settings.size_px;
         vk::Extent2D { width, height }

@@ -53,8 +53,11 @@ pub use crate::passes::{
 };
 
 use crate::passes::{
-    cull::lists::Lists, host::BesideHost, plan::outputs::Outputs, resolve::finalize::Opaque,
-    tiles::splat::TileStart,
+    cull::lists::Lists,
+    host::BesideHost,
+    plan::outputs::Outputs,
+    resolve::finalize::{Opaque, ShownPolygons},
+    tiles::{shaded::PolygonsBefore, start::TileStart},
 };
 use crate::{
     error::Result,
@@ -184,13 +187,25 @@ fn shaded_by_tiles<'a>(
     let mut shown = tiles::ShadedTiles::create(graph, inputs, outputs);
     let mut opaque = Opaque::nothing(graph.arena());
     let mut start = if outputs.layers { TileStart::Cleared } else { TileStart::Empty };
-    if !inputs.meshes.is_empty() {
+    let mut samples = None;
+    if inputs.samples_polygons() {
+        let image = (&mut shown.image, shown.precision);
+        let (drawn, depth) = polygons::sampled::sampled(graph, inputs, image, lights, outputs)?;
+        samples = Some(drawn);
+        (opaque.polygon_depth, start) = (depth, TileStart::SampledPolygons);
+        opaque.shows_polygons = ShownPolygons::InPart;
+    } else if !inputs.meshes.is_empty() {
         let depth = polygons::draw::shaded(graph, inputs, (&mut shown.image, shown.precision), lights)?;
-        (opaque.polygon_depth, opaque.shows_polygons, start) = (Some(depth), true, TileStart::Polygons);
+        (opaque.polygon_depth, start) = (Some(depth), TileStart::Polygons);
+        opaque.shows_polygons = ShownPolygons::Whole;
     }
     for (band, inputs, plan) in inputs.of_bands(graph.arena()) {
         let mut tiles = tiles::list(graph, inputs, band, plan)?;
-        let polygons = opaque.polygon_depth.as_ref();
+        let polygons = match (&samples, &opaque.polygon_depth) {
+            (Some(samples), _) => PolygonsBefore::Sampled(&samples.color, &samples.depth),
+            (None, Some(depth)) => PolygonsBefore::Whole(depth),
+            (None, None) => PolygonsBefore::None,
+        };
         tiles::shaded(graph, inputs, band, &mut tiles, &mut shown, (polygons, lights), start)?;
         start = start.after_a_band();
         if let Some(depth) = &shown.depth {

@@ -7,7 +7,6 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::covering;
 use super::front::Front;
 use super::kernel::{decline, limit_r2, weight};
 use super::layers::{Source, Translucent, Transparent};
@@ -17,6 +16,7 @@ use super::search_box::SearchBox;
 use super::shade::Shader;
 use super::splat::DrawnSplat;
 use super::surface::{Attributes, Nearest, Sums};
+use super::surfaces::surfaces;
 use super::transition::{Splatted, join};
 use super::triangle::DrawnTriangle;
 use super::view::View;
@@ -39,6 +39,8 @@ pub(super) struct Frame<'a> {
     pub transparent_triangles: Drawn<DrawnTriangle>,
     /// See [`super::mesh::Triangles::has_opaque`].
     pub has_opaque_polygons: bool,
+    /// The places of a pixel, from its center, at which polygons cover parts of it.
+    pub polygon_offsets_px: &'static [[f64; 2]],
     /// The ε of transparent polygons: a length.
     pub polygon_epsilon: f64,
     /// Transparent surfaces cover pixels in part where they end.
@@ -162,13 +164,17 @@ fn cover_edges(frame: &Frame, rows: &Range<u32>, fronts: &mut [Front], pixels: &
         let fragment = translucent(frame, &frame.splats.things[splat_index], splat_index, [column, row]);
         fragments[i].extend(fragment);
     });
-    for (i, fragments) in fragments.into_iter().enumerate() {
+    let polygons = polygons::samples(frame, rows, pixels);
+    let mut seen_to = vec![f64::INFINITY; pixels.len()];
+    for (i, (fragments, polygons)) in fragments.into_iter().zip(&polygons).enumerate() {
         let ray = frame.ray(rows, i);
-        let opaque = covering::surfaces(frame, ray, &fronts[i], fragments);
+        let opaque = surfaces(frame, ray, (fronts[i].nearest_polygon, polygons), fragments);
         pixels[i].color = opaque.over(frame.background);
         pixels[i].note_margin(opaque.margin);
         fronts[i].hide_beyond(opaque.hides_beyond);
+        seen_to[i] = opaque.seen_to;
     }
+    polygons::mark_borders_of_samples(frame, rows, (&polygons, &seen_to), pixels);
 }
 
 /// A splat's fragment in a pixel; `None` where it does not cover.

@@ -1,23 +1,16 @@
-//! What part of a pixel a surface covers, where it ends; and the opaque surfaces of a pixel, as many as are seen side by side.
+//! What part of a pixel a surface covers, where it ends.
 //!
 //! The weights of widened splats, which keep their area, are the unfiltered ones convolved with the low-pass filter. Over what a whole
 //! surface sums to (`overlap`) they are the part A of the filter in which there is a surface. A large splat alone is seen to end at its rim,
 //! where its weight is far below that: there its own part counts, that of a half plane at the distance of the rim. All fragments of a pixel
 //! are at hand here, and surfaces are groups of them (`layers`).
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-use super::band::Frame;
-use super::creases::CreasedSums;
 use super::drawn_clip::Kept;
-use super::fragment::Fragment;
-use super::front::Front;
-use super::layers::{Source, Translucent, take_nearest_side};
+use super::layers::Translucent;
 use super::splat::DrawnSplat;
-use crate::scene::{MeshObject, Object, Opacity, Scene, Settings, Transition};
-
-/// The most surfaces of a pixel.
-const MOST_SURFACES: usize = 3;
+use crate::scene::{MeshObject, Object, Opacity, Scene, Settings};
 
 /// From this sum on a pixel is covered, unless the surface ends there; sums of a whole surface are not all 1.
 const WHOLE_SUM: f64 = 0.79;
@@ -27,9 +20,6 @@ const LEFT_OUT: f64 = 0.225;
 
 /// What is covered to all but so little is covered.
 const NEARLY_WHOLE: f64 = 0.96;
-
-/// From this sum on, splats hide polygons of the same surface: at a seam half of a whole surface's splats are there.
-const WHOLE_SEAM_SUM: f64 = 0.4;
 
 /// Whether surfaces cover pixels in part: all that is opaque, and what is transparent where there are no polygons in its layers.
 pub(super) fn covers_in_part(scene: &Scene, settings: &Settings, opacity: Opacity) -> bool {
@@ -133,95 +123,6 @@ fn opacity(parts: &[Part]) -> f64 {
     kept * whole(sum(&|_| true), fall.length(), alone(&|_| true), covering)
 }
 
-/// What is opaque in a pixel.
-pub(super) struct Opaque {
-    /// Linear, multiplied by alpha.
-    pub color: DVec3,
-    pub alpha: f64,
-    /// The shifted depth of what covers half of it: beyond it transparent things are hidden.
-    pub hides_beyond: f64,
-    /// The smallest margin of a decision.
-    pub margin: f64,
-}
-
-/// All opaque surfaces of a pixel, those of splats in front of the polygon, and the polygon. `fragments`: of all opaque splats.
-pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: Vec<Translucent>) -> Opaque {
-    let mut ended = DVec2::ZERO;
-    let mut seen =
-        Opaque { color: DVec3::ZERO, alpha: 0.0, hides_beyond: f64::INFINITY, margin: f64::INFINITY };
-    let polygon_z = front.nearest_polygon.map_or(f64::INFINITY, |polygon| polygon.z);
-    for _ in 0..MOST_SURFACES {
-        let nearest = fragments.iter().map(|fragment| fragment.z_shifted).fold(f64::INFINITY, f64::min);
-        if fragments.is_empty() || seen.alpha >= 1.0 {
-            break;
-        }
-        let beside = polygon_z < nearest;
-        let near_polygon = (polygon_z - nearest).abs() / nearest;
-        seen.margin = seen.margin.min(near_polygon);
-        let splat_of = |fragment: &Translucent| match fragment.source {
-            Source::Splat(i) => &frame.splats.things[i],
-            Source::Triangle(_) => unreachable!("polygons are not among the fragments of splats"),
-        };
-        // Both sides of a thin thing are nearer to each other than a slanted splat's ε.
-        let (layer, margin) = take_nearest_side(&mut fragments, &|fragment| splat_of(fragment).faces_away);
-        seen.margin = seen.margin.min(margin);
-        let mut sums = CreasedSums::default();
-        // Behind the polygon, shifted toward the eye, they are another surface.
-        let threshold = polygon_z.min(nearest);
-        let of_surface: Vec<_> = layer
-            .iter()
-            .filter(|fragment| {
-                let behind = (fragment.z / splat_of(fragment).toward_polygon - threshold) / threshold;
-                if polygon_z.is_finite() {
-                    seen.margin = seen.margin.min(behind.abs());
-                }
-                behind <= 0.0 || !polygon_z.is_finite()
-            })
-            .collect();
-        for fragment in &of_surface {
-            let of = Fragment { z: fragment.z, weight: fragment.weight };
-            sums.add(of, fragment.kept, splat_of(fragment));
-        }
-        let part = match frame.settings.transition {
-            Transition::None if beside => 0.0,
-            _ if beside => (sums.weight() / WHOLE_SEAM_SUM).min(1.0),
-            _ => covered(&of_surface, splat_of),
-        };
-        if let Some(color) = sums.color(&frame.shader, ray) {
-            // What ends toward the same side as what is before it lies behind that, and is seen only where it reaches further.
-            let fall = fall(&of_surface, splat_of);
-            let longest2 = fall.length_squared().max(ended.length_squared());
-            let behind = if beside || longest2 == 0.0 { 0.0 } else { fall.dot(ended).max(0.0) / longest2 };
-            ended += (1.0 - behind) * fall;
-            let part = (1.0 - behind) * part.min(1.0 - seen.alpha) + behind * (part - seen.alpha).max(0.0);
-            if seen.alpha < 0.5 && seen.alpha + part >= 0.5 {
-                seen.hides_beyond = nearest;
-            }
-            seen.color += part * color;
-            seen.alpha += part;
-        } else {
-            break;
-        }
-        if beside {
-            break;
-        }
-    }
-    seen.hides_beyond = seen.hides_beyond.min(polygon_z);
-    if let Some(polygon) = front.nearest_polygon {
-        let attributes = frame.triangles.things[polygon.triangle].attributes(ray, polygon.z);
-        seen.color += (1.0 - seen.alpha) * frame.shader.shade(attributes.albedo, attributes.normal, ray);
-        seen.alpha = 1.0;
-    }
-    seen
-}
-
-/// By how much the sum of fragments of splats falls a pixel.
-fn fall<'a>(fragments: &[&Translucent], splat_of: impl Fn(&Translucent) -> &'a DrawnSplat) -> DVec2 {
-    let share =
-        |fragment: &Translucent| splat_of(fragment).covering.as_ref().map_or(0.0, |covering| covering.share);
-    fragments.iter().map(|fragment| share(fragment) * fragment.fall).sum()
-}
-
 /// [`opacity`] of fragments of splats.
 pub(super) fn covered<'a>(
     fragments: &[&Translucent],
@@ -237,11 +138,11 @@ pub(super) fn covered<'a>(
     opacity(&parts)
 }
 
-impl Opaque {
-    /// Over a straight color with alpha, straight again; black where nothing is seen.
-    pub fn over(&self, [red, green, blue, alpha]: [f64; 4]) -> [f64; 4] {
-        let color = self.color + (1.0 - self.alpha) * alpha * DVec3::new(red, green, blue);
-        let alpha = 1.0 - (1.0 - self.alpha) * (1.0 - alpha);
-        if alpha > 0.0 { (color / alpha).extend(alpha).to_array() } else { [0.0; 4] }
-    }
+/// By how much the sum of fragments of splats falls a pixel along x and y.
+pub(super) fn fall<'a>(
+    fragments: &[Translucent],
+    splat_of: impl Fn(&Translucent) -> &'a DrawnSplat,
+) -> DVec2 {
+    let fall = |fragment: &Translucent| Some(splat_of(fragment).covering.as_ref()?.share * fragment.fall);
+    fragments.iter().filter_map(fall).sum()
 }

@@ -68,6 +68,7 @@ mod selection;
 mod shade;
 mod splat;
 mod surface;
+mod surfaces;
 mod tangents;
 mod transition;
 mod triangle;
@@ -122,19 +123,23 @@ pub fn render(
     if settings.samples.0 > 1 {
         return samples::render(scene, camera, settings, progress);
     }
-    render_view(scene, View::of(scene, camera, settings.size_px).cut_by(settings), settings, progress)
+    render_view(scene, View::of(scene, camera, settings.size_px).cut_by(settings), settings, true, progress)
 }
 
-/// One sample of each pixel.
+/// One sample of each pixel; `alone`: of no others.
 fn render_view(
     scene: &Scene,
     view: View,
     settings: &Settings,
+    alone: bool,
     progress: &(dyn Fn(u64, u64) + Sync),
 ) -> Result<Picture> {
     let [width, height] = settings.size_px;
     let (splats, defects) = splat::prepare(scene, &view, settings);
-    let frame = frame(scene, view, settings, splats);
+    let frame = Frame {
+        polygon_offsets_px: polygons::offsets_px(scene, settings, alone),
+        ..frame(scene, view, settings, splats)
+    };
 
     let mut pixels = empty_pixels(settings)?;
     let rows_done = AtomicU64::new(0);
@@ -182,6 +187,7 @@ fn frame<'a>(scene: &Scene, view: View, settings: &'a Settings, splats: Vec<Draw
         transparent_splats: drawn_splats(transparent),
         transparent_triangles: drawn_triangles(triangles.transparent),
         has_opaque_polygons: triangles.has_opaque,
+        polygon_offsets_px: &polygons::CENTER,
         polygon_epsilon: epsilon::mean_epsilon(scene, settings.epsilon),
         layers_cover_in_part: covering::covers_in_part(scene, settings, Opacity::Transparent),
         background: background(settings),

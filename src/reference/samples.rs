@@ -13,15 +13,20 @@ pub(super) fn render(
     progress: &(dyn Fn(u64, u64) + Sync),
 ) -> Result<Picture> {
     let one = Settings { samples: Samples(1), ..settings.clone() };
-    let mut picture =
-        render_view(scene, View::of(scene, camera, settings.size_px).cut_by(settings), &one, progress)?;
+    let mut picture = render_view(
+        scene,
+        View::of(scene, camera, settings.size_px).cut_by(settings),
+        &one,
+        false,
+        progress,
+    )?;
     let offsets_px = settings.samples.offsets_px(settings.kernel);
     let count = offsets_px.len() as f64;
     let mut sums = vec![[0.0; 4]; picture.pixels.len()];
     for offset_px in offsets_px {
         let view = View::of(scene, &camera.sample(offset_px), settings.size_px).cut_by(settings);
         let view = View { filter_px: view.filter_px / count.sqrt(), ..view };
-        let drawn = render_view(scene, view, &one, progress)?;
+        let drawn = render_view(scene, view, &one, false, progress)?;
         for (sum, pixel) in sums.iter_mut().zip(&drawn.pixels) {
             let [red, green, blue, alpha] = pixel.color;
             let light = [alpha * red, alpha * green, alpha * blue, alpha];

@@ -97,6 +97,12 @@ impl View {
         DVec3::new(x_px / self.focal_px, y_px / self.focal_px, 1.0)
     }
 
+    /// The same through a place of it, so far from its center in pixels.
+    pub fn ray_beside(&self, column: u32, row: u32, [right_px, down_px]: [f64; 2]) -> DVec3 {
+        let [x_px, y_px] = self.offset_px(column, row);
+        DVec3::new((x_px + right_px) / self.focal_px, (y_px + down_px) / self.focal_px, 1.0)
+    }
+
     /// The radius of the low-pass filter in units of the image plane.
     pub fn filter_radius(&self) -> f64 {
         self.filter_px / self.focal_px

@@ -23,7 +23,7 @@ settings! {
         "size" "WxH" size_px: [u32; 2] = [1024, 1024],
         /// The number of samples of each pixel, 1 to 256: so many pictures are drawn, moved by parts of a pixel and filtered the less, and
         /// their mean is taken in linear light. A device that cannot add in 32 bits refuses more than one. `render` takes 8 of scenes with polygons, where
-        /// nobody says otherwise and edges are covered: outlines of triangles are stairs in one.
+        /// nobody says otherwise and edges are covered: outlines are half as far from what there is as in one.
         "samples" "N" samples: Samples,
         /// How splats become fragments. All draw the same picture but `raycast-approximate` and the affine ones.
         "rasterizer" "NAME" rasterizer: Rasterizer,

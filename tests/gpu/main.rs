@@ -15,6 +15,7 @@ mod culling;
 mod edges;
 mod edges_inside;
 mod edges_measured;
+mod edges_of_polygons;
 mod embedding;
 mod extremes;
 mod eye_dome;

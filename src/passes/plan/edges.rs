@@ -8,11 +8,13 @@ use crate::{
     arena::Arena,
     scene::Edges,
     shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_SHARP, SPEC_TWO_SIDED},
+    vk::Limits,
 };
 
 impl<'a> SurfacePlan<'a> {
-    /// Tiles that shade what they sum cover pixels in part where surfaces end; what leaves sums does not. Those of layers do it under so many lights.
-    pub(super) fn finish_bands(&mut self, arena: &'a Arena, lights: Option<u32>) {
+    /// Tiles that shade what they sum cover pixels in part where surfaces end; what leaves sums does not. Those of layers do it under so many lights. Polygons beside opaque ones
+    /// do, too, where the device has an image with room for their samples; not in one of several samples of a picture, which are as many themselves.
+    pub(super) fn finish_bands(&mut self, arena: &'a Arena, lights: Option<u32>, limits: &Limits) {
         let transparent = lights.is_some();
         let shades = !self.bands().is_empty() && (transparent || self.tiles_can_shade(&self.settings));
         let coverage = shades && self.settings.covers_in_part();
@@ -27,6 +29,9 @@ impl<'a> SurfacePlan<'a> {
         }
         let two_sided = coverage && self.splats.iter().any(|draw| !culls(&draw.variant));
         let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());
+        let samples_polygons = !self.meshes.is_empty()
+            && self.settings.samples.0 == 1
+            && self.settings.size_px.iter().all(|side| 2 * side <= limits.max_image_side);
         let most_layers = self.settings.layers.most();
         let SplatMethod::Tiles(bands) = &mut self.method else { return };
         let of_band = |band: &Band<'a>| {
@@ -35,7 +40,7 @@ impl<'a> SurfacePlan<'a> {
                 false => band.splats,
             };
             let plan = match lights {
-                None => band.plan.clone().with_edges(two_sided, blended),
+                None => band.plan.clone().with_edges(two_sided, blended, samples_polygons),
                 Some(lights) => band.plan.clone().with_layers(most_layers, lights, two_sided),
             };
             Band { splats, plan, ..*band }

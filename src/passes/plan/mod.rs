@@ -220,7 +220,7 @@ impl<'a> SurfacePlan<'a> {
         number_meshes(&mut meshes, splats.len());
         let (splats, meshes) = (splats.into_bump_slice(), meshes.into_bump_slice());
         let mut plan = Self { splats, meshes, method, reason, settings, sums };
-        plan.finish_bands(arena, lights);
+        plan.finish_bands(arena, lights, limits);
         plan
     }
 

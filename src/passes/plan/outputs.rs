@@ -36,6 +36,14 @@ impl Outputs {
         !read && opaque.tiles_can_shade(&opaque.settings)
     }
 
+    /// The precision of samples of polygons, of which there are four a pixel: no more than the target has.
+    pub fn sample_precision(self) -> Accumulate {
+        match self.target_format == sum_format(Accumulate::F32) {
+            true => Accumulate::F32,
+            false => Accumulate::F16,
+        }
+    }
+
     /// The format of tiles that are shaded at once: a target of 32 bits loses nothing by them.
     pub fn shaded_precision(self, settings: &Settings) -> Accumulate {
         match self.target_format == sum_format(Accumulate::F32) {

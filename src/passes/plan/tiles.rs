@@ -93,6 +93,8 @@ pub struct TilePlan {
     pub blended: bool,
     /// Clip curves cut something off some splats.
     pub clips: bool,
+    /// Polygons beside them cover pixels in part.
+    pub samples_polygons: bool,
     /// What they draw, and how they come by splats.
     pub invocations: Invocations,
 }
@@ -201,6 +203,7 @@ impl TilePlan {
             hidden: false,
             two_sided: false,
             blended: false,
+            samples_polygons: false,
             clips: false,
             invocations,
         })
@@ -222,9 +225,9 @@ impl TilePlan {
     }
 
     /// The plan for what covers pixels in part where it ends: what one surface hides, the next may show.
-    /// `two_sided`: some splats that face away are drawn. `blended`: levels of detail blend into each other.
-    pub(crate) fn with_edges(self, two_sided: bool, blended: bool) -> Self {
-        Self { hidden: false, two_sided, blended, ..self }
+    /// `two_sided`: some splats that face away are drawn. `blended`: levels of detail blend into each other. `samples_polygons`: polygons beside them end so, too.
+    pub(crate) fn with_edges(self, two_sided: bool, blended: bool, samples_polygons: bool) -> Self {
+        Self { hidden: false, two_sided, blended, samples_polygons, ..self }
     }
 
     /// The bins of all lists: of tiles, then of chunks.

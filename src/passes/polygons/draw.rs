@@ -26,7 +26,7 @@ use crate::{
 };
 
 /// What the pass is made of.
-fn mesh_pass(settings: &Settings) -> MeshPass {
+pub(super) fn mesh_pass(settings: &Settings) -> MeshPass {
     MeshPass {
         fragment: &shaders::POLYGONS_OPAQUE_FRAG,
         color_formats: [sum_format(settings.accumulate); 2].into(),
@@ -37,7 +37,7 @@ fn mesh_pass(settings: &Settings) -> MeshPass {
 }
 
 /// What the pass is made of that shades them; `precision`: of what it leaves.
-fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> MeshPass {
+pub(super) fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> MeshPass {
     let mut constants = shading_constants(settings.shading, lights);
     constants.push((SPEC_HALF_FLOATS, u32::from(precision == Accumulate::F16)));
     MeshPass {

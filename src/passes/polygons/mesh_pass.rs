@@ -6,6 +6,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
+        constants::FrameConstants,
         key::{ColorFormats, GraphicsKey, Layout},
         variant::Constants,
     },
@@ -57,11 +58,22 @@ pub(crate) fn draw_meshes(
     inputs: Inputs<'_>,
     pipelines: &[Pipeline],
 ) -> Result<()> {
+    draw_meshes_at(pass, inputs, pipelines, [0.0; 2])
+}
+
+/// The same, of what lies so far right and down from the middle of each pixel.
+pub(crate) fn draw_meshes_at(
+    pass: &Recording<'_, '_>,
+    inputs: Inputs<'_>,
+    pipelines: &[Pipeline],
+    place_px: [f32; 2],
+) -> Result<()> {
     let (device, commands) = (pass.device(), pass.commands());
     for ((number, draw), pipeline) in inputs.meshes.iter().enumerate().zip(pipelines) {
         pass.bind(*pipeline);
         pass.bind_sets(Layout::Splat, 0, &[draw.chunk.set()])?;
-        pass.push(Layout::Splat, &draw.constants)?;
+        let middle_px = [0, 1].map(|i| draw.constants.middle_px[i] - place_px[i]);
+        pass.push(Layout::Splat, &FrameConstants { middle_px, ..draw.constants })?;
         // SAFETY: the piece's indices are alive as long as the scene.
         unsafe { device.cmd_bind_index_buffer(commands, draw.chunk.indices(), 0, vk::IndexType::UINT32) };
         match is_predicated(pass) {

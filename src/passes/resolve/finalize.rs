@@ -48,8 +48,19 @@ pub(crate) struct Opaque<'a> {
     pub tiles: ArenaVec<'a, Tiles<'a>>,
     /// What these and polygons show, in place of sums.
     pub shown: Option<Handle<Image>>,
-    /// Polygons are among what is shown.
-    pub shows_polygons: bool,
+    /// How polygons are among what is shown.
+    pub shows_polygons: ShownPolygons,
+}
+
+/// How polygons are among what is shown already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ShownPolygons {
+    /// They are not.
+    None,
+    /// Where they have a depth, all of the pixel is theirs.
+    Whole,
+    /// They cover pixels in part, and the depth, if there is one, is that at their middles.
+    InPart,
 }
 
 impl<'a> Opaque<'a> {
@@ -62,7 +73,7 @@ impl<'a> Opaque<'a> {
             polygon_depth: None,
             tiles: arena.growing(),
             shown: None,
-            shows_polygons: false,
+            shows_polygons: ShownPolygons::None,
         }
     }
 
@@ -163,16 +174,21 @@ pub(crate) fn finalize<'a>(
     Ok(())
 }
 
-/// Brings to the target what tiles show, and before it, where they are nearer than nothing, polygons.
+/// Brings to the target what tiles show, and before it, where they are nearer than nothing, polygons; or all, where these cover pixels in part.
 fn finalize_shown<'a>(
     pass: Pass<'_, 'a>,
     opaque: &Opaque<'a>,
     target_format: vk::Format,
     constants: FinalizeConstants,
 ) -> Result<()> {
+    if opaque.shows_polygons == ShownPolygons::InPart {
+        let pipeline = pass.graphics(GraphicsKey { depth: None, ..polygon_resolve_key(target_format) })?;
+        pass.finish(move |pass| draw_fullscreen(pass, pipeline, &constants));
+        return Ok(());
+    }
     let (mut pass, runs) = read_runs(pass, &opaque.tiles);
     // Where layers are hidden by it, both have one depth.
-    let of_polygons = match opaque.depth().filter(|_| opaque.shows_polygons) {
+    let of_polygons = match opaque.depth().filter(|_| opaque.shows_polygons == ShownPolygons::Whole) {
         None => None,
         Some(depth) => {
             pass = pass.uses(depth, Access::DepthTest);

@@ -16,6 +16,7 @@ pub(crate) mod project;
 pub(crate) mod runs;
 pub(crate) mod shaded;
 pub(crate) mod splat;
+pub(crate) mod start;
 
 pub(crate) use crate::passes::tiles::{
     bins::list,

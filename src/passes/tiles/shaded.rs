@@ -15,7 +15,8 @@ use crate::passes::{
         dispatch,
         lists::Tiles,
         overflow,
-        splat::{self, TileImages, TileStart, VISIBLE_FORMAT, beside_polygons},
+        splat::{self, TileImages, VISIBLE_FORMAT, beside_polygons},
+        start::TileStart,
     },
 };
 use crate::{
@@ -54,6 +55,16 @@ impl ShadedTiles {
     }
 }
 
+/// Polygons, drawn as if there were no splats.
+#[derive(Clone, Copy)]
+pub(crate) enum PolygonsBefore<'p> {
+    None,
+    /// Their depth; what they show is in the image of what tiles do.
+    Whole(&'p Handle<Image>),
+    /// Light and depth, sample by sample.
+    Sampled(&'p Handle<Image>, &'p Handle<Image>),
+}
+
 /// Beside what tiles are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Beside {
@@ -73,9 +84,12 @@ fn key(
     precision: Accumulate,
     Beside { polygons, layers, host, lights }: Beside,
 ) -> ComputeKey {
-    let shader = plan.invocations.shader(match plan.hidden {
-        false => [&shaders::TILE_SHADE_COLUMN_COMP, &shaders::TILE_SHADE_PIXEL_COMP],
-        true => [&shaders::TILE_SHADE_COLUMN_HIDDEN_COMP, &shaders::TILE_SHADE_PIXEL_HIDDEN_COMP],
+    let shader = plan.invocations.shader(match (plan.hidden, plan.samples_polygons) {
+        (false, false) => [&shaders::TILE_SHADE_COLUMN_COMP, &shaders::TILE_SHADE_PIXEL_COMP],
+        (true, _) => [&shaders::TILE_SHADE_COLUMN_HIDDEN_COMP, &shaders::TILE_SHADE_PIXEL_HIDDEN_COMP],
+        (false, true) => {
+            [&shaders::TILE_SHADE_COLUMN_POLYGONS_COMP, &shaders::TILE_SHADE_PIXEL_POLYGONS_COMP]
+        }
     });
     let mut constants = splat::constants(settings, plan, precision);
     constants.extend(resolve_constants(settings, true, polygons, lights));
@@ -87,7 +101,7 @@ fn key(
     dispatch::key(shader, constants)
 }
 
-/// Declares all of it, shading too. `polygons`: their depth, as if there were no splats; `kind`, `start`: as in
+/// Declares all of it, shading too. `kind`, `start`: as in
 /// [`crate::passes::tiles::splat::fused`].
 pub(crate) fn shaded<'a>(
     graph: &mut Graph<'a, Body<'a>>,
@@ -95,13 +109,19 @@ pub(crate) fn shaded<'a>(
     kind: &str,
     tiles: &mut Tiles<'a>,
     shown: &mut ShadedTiles,
-    (polygons, lights): (Option<&Handle<Image>>, Option<&Handle<Buffer>>),
+    (polygons, lights): (PolygonsBefore<'_>, Option<&Handle<Buffer>>),
     start: TileStart,
 ) -> Result<()> {
     let plan = tiles.plan;
     let layers = shown.depth.is_some();
     let host = shown.own_depth.is_some();
-    let beside = Beside { polygons: polygons.is_some(), layers, host, lights: inputs.lights };
+    let has_polygons = !matches!(polygons, PolygonsBefore::None);
+    let beside = Beside { polygons: has_polygons, layers, host, lights: inputs.lights };
+    let (depth, samples) = match polygons {
+        PolygonsBefore::None => (None, None),
+        PolygonsBefore::Whole(depth) => (Some(depth), None),
+        PolygonsBefore::Sampled(color, depth) => (Some(depth), Some(color)),
+    };
     let (access, content) = start.access();
     let why = "opaque splats: visibility, sums and shading of one tile after the other";
     let pass = Pass::new(graph, inputs.source, format_args!("see, sum and shade {kind}tiles"), why)
@@ -111,9 +131,10 @@ pub(crate) fn shaded<'a>(
         false => tiles.read_lists(pass),
     }
     .read_if(at(BIND_LIGHTS), lights, Access::UniformReadCompute)
-    .read_if(at(BIND_POLYGON_DEPTH), polygons, Access::SampledCompute)
+    .read_if(at(BIND_POLYGON_DEPTH), depth, Access::SampledCompute)
+    .read_if(at(BIND_COLORS_BEFORE), samples, Access::SampledCompute)
     .write(at(BIND_COLORS), &mut shown.image, access, content);
-    if beside.polygons {
+    if beside.polygons && samples.is_none() {
         pass = pass.also(at(BIND_COLORS_BEFORE));
     }
     // An image that is not written has to be one that may be: a stand-in is only read.

@@ -68,7 +68,7 @@ fn coverage(mut splats: Splats, view: View, settings: &Settings) -> Vec<bool> {
     splats.colors = Colors::unknown(); // the weight is that of what is opaque
     let object = Object { name: "levels".into(), splats, closed: false };
     let scene = Scene { objects: vec![object], ..Scene::default() };
-    let picture = render_view(&scene, view, settings, &|_, _| {}).unwrap();
+    let picture = render_view(&scene, view, settings, true, &|_, _| {}).unwrap();
     picture.pixels.iter().map(|pixel| pixel.weight > 0.0).collect()
 }
 
