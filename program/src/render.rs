@@ -121,6 +121,11 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     if arguments.film.fps.is_some() {
         return Err(Error::option("--fps", "has no meaning for a picture; expected --path or --turntable"));
     }
+    if let Some(output) = arguments.picture.output.as_deref().filter(|name| film::is_name_of_film(name)) {
+        let problem =
+            format!("{}: is a film's, or its pictures'; expected --path or --turntable", output.display());
+        return Err(Error::option("--output", problem));
+    }
     let output = outputs::check(&arguments.picture, "surfel.png", &arguments.timings)?;
     let mut steps = Steps::default();
     let headless = steps.time("open the device", || arguments.device.open())?;
@@ -239,7 +244,7 @@ fn draw_film(
     if arguments.picture.print_camera {
         shots.iter().try_for_each(|camera| console::print(&camera::words(camera)))?;
     }
-    let fps = arguments.film.fps.unwrap_or(film::FPS);
+    let fps = film::fps(&arguments.film, path, arguments.frames);
     let making =
         film::Making { picture: &arguments.picture, hierarchies: &arguments.hierarchies, part, output, fps };
     film::make(headless, loaded, &settings, &shots, &making, &bars)

@@ -19,7 +19,7 @@ pub struct FilmArguments {
     #[arg(long, value_name = "SECONDS", value_parser = parse::number("seconds", 0.001..=86_400.0), allow_hyphen_values = true)]
     pub turntable: Option<f64>,
 
-    /// Pictures a second of a film: how many there are where --frames does not say it, and what ffmpeg is told [default: 30]
+    /// Pictures a second of a film: how many there are where --frames does not say it, and what ffmpeg is told [default: 30; with --frames so many that the film takes the path's or the turn's time]
     #[arg(long, value_name = "N", value_parser = parse::number("pictures a second", 0.01..=1000.0), allow_hyphen_values = true)]
     pub fps: Option<f64>,
 }

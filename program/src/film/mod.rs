@@ -18,7 +18,8 @@ use surfel::{
     scene::{Camera, CameraPath, OptionTable as _, OptionValue as _, Settings},
 };
 
-pub use arguments::{FPS, FilmArguments};
+use arguments::FPS;
+pub use arguments::FilmArguments;
 
 use crate::{
     camera::read_path,
@@ -74,12 +75,29 @@ impl Output {
     }
 }
 
+/// Whether a name is that of a film or of its pictures, and not of a picture.
+pub fn is_name_of_film(output: &Path) -> bool {
+    output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mp4"))
+        || Names::parse(output).is_ok()
+}
+
 /// The path of the cameras, where a file has it.
 ///
 /// # Errors
 /// A file that can't be read, or is no path.
 pub fn path(arguments: &FilmArguments) -> Result<Option<CameraPath>> {
     arguments.path.as_deref().map(read_path).transpose()
+}
+
+/// Pictures a second: so many that the film takes its time, where somebody says only how many there are.
+pub fn fps(arguments: &FilmArguments, path: Option<&CameraPath>, frames: Option<u32>) -> f64 {
+    let (secs, steps) = match path {
+        // Both ends are shown.
+        Some(path) => (path.times()[1] - path.times()[0], frames.map(|frames| frames.saturating_sub(1))),
+        None => (arguments.turntable.unwrap_or_default(), frames),
+    };
+    let fitting = steps.map(|steps| f64::from(steps) / secs).filter(|fps| fps.is_finite() && *fps > 0.0);
+    arguments.fps.or(fitting).unwrap_or(FPS)
 }
 
 /// The cameras of a film, on its path. `base` is that of a picture, which a turntable carries around where there is none.
@@ -188,7 +206,8 @@ pub fn make(
         bars.step("pictures", number + 1, total);
     }
     bars.clear();
-    let pattern = names.pattern();
+    let pattern = &names.pattern();
+    let pictures = encode::Pictures { pattern, count: total, fps: *fps };
     console::say(&format!(
         "{}: {total} pictures, {drawn} drawn, {} there before",
         pattern.display(),
@@ -196,13 +215,19 @@ pub fn make(
     ));
     match film {
         Some((film, folder)) => {
-            encode::encode(&pattern, *fps, film)?;
-            let _ = fs::remove_dir_all(folder); // a film is all that was asked for
+            encode::encode(&pictures, film)?;
+            // A film is all that was asked for. What else somebody has in the folder stays.
+            let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+            let ours = |path: &PathBuf| names.has(path) || *path == names.journal();
+            entries.map(|entry| entry.path()).filter(ours).for_each(|file| {
+                let _ = fs::remove_file(file);
+            });
+            let _ = fs::remove_dir(folder);
             console::say(&format!("wrote {}, {total} pictures", film.display()));
         }
         None if *format == PictureFormat::Png => {
             let film = Path::new("film.mp4");
-            console::say(&format!("as a film: {}", encode::command_line(&pattern, *fps, film)));
+            console::say(&format!("as a film: {}", encode::command_line(&pictures, film)));
         }
         None => {}
     }

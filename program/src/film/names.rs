@@ -50,6 +50,14 @@ impl Names {
         folder.join(format!("{before}{number:0digits$}{after}"))
     }
 
+    /// Whether it is the name of a picture, of any number.
+    pub fn has(&self, path: &Path) -> bool {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let number = name.and_then(|name| name.strip_prefix(&self.before)?.strip_suffix(&self.after));
+        let number = number.filter(|number| number.bytes().all(|digit| digit.is_ascii_digit()));
+        number.and_then(|number| number.parse().ok()).is_some_and(|number| self.of(number) == path)
+    }
+
     /// The file that tells of which job pictures are.
     pub fn journal(&self) -> PathBuf {
         let stem = self.before.trim_end_matches(['.', '-', '_']);
@@ -74,6 +82,10 @@ mod tests {
         assert_eq!(names.of(7), Path::new("films/out0007.png"));
         assert_eq!(names.of(123_456), Path::new("films/out123456.png"));
         assert_eq!(names.journal(), Path::new("films/out.frames.txt"));
+        assert!(names.has(Path::new("films/out0007.png")) && names.has(Path::new("films/out123456.png")));
+        for other in ["out7.png", "out00007.png", "out0007.exr", "out.png", "a0007.png", "b/out0007.png"] {
+            assert!(!names.has(&Path::new("films").join(other)), "{other}");
+        }
         assert_eq!(of("%d.exr").unwrap().of(12), Path::new("12.exr"));
         assert_eq!(of("%05d.png").unwrap().journal(), Path::new("frames.txt"));
         for refused in ["out.png", "out%s.png", "out%4d.png", "a%d%d.png", "a%099d.png", "%04d/out.png", ""] {

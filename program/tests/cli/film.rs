@@ -154,6 +154,18 @@ fn a_film_is_made_by_ffmpeg_or_its_command_is_told() {
     );
     assert!(String::from_utf8(bytes(&folder, "my film.mp4")).unwrap().contains("libx264"));
     assert!(!folder.path("my film.frames").exists() && !folder.path("my film.unfinished.mp4").exists());
+    // What somebody else has there stays, and so many pictures are shown, in the time that was said, as there are: others may be left of a job before.
+    let longer =
+        [&["render", "disks.ply", "--turntable", "0.5", "--frames", "4", "-o", "my film.mp4"], &SMALL[..]]
+            .concat();
+    fs::create_dir(folder.path("my film.frames")).unwrap();
+    folder.write("my film.frames/00009.png", "of a job before");
+    folder.write("my film.frames/notes.txt", "mine");
+    assert_eq!(surfel_with(&folder, &longer, &[("PATH", &place)]).code, 0);
+    let said = String::from_utf8(bytes(&folder, "my film.mp4")).unwrap();
+    assert!(said.contains("-framerate 8 ") && said.contains("-frames:v 4 "), "{said}");
+    assert_eq!(fs::read_dir(folder.path("my film.frames")).unwrap().count(), 1);
+    fs::remove_dir_all(folder.path("my film.frames")).unwrap();
     // One that fails.
     folder.write("ffmpeg", "#!/bin/sh\necho no encoder >&2\nexit 1\n");
     let run = surfel_with(&folder, &job, &[("PATH", &place)]);
@@ -175,6 +187,11 @@ fn what_makes_no_film_is_refused() {
         (&["--turntable", "0"], "expected seconds, 0.001 to 86400"),
         (&["--turntable", "86400", "--fps", "1000"], "--fps: 1000: more than a million pictures"),
         (&["--fps", "9"], "--fps: has no meaning for a picture"),
+        (
+            &["-o", "a%02d.png"],
+            "--output: a%02d.png: is a film's, or its pictures'; expected --path or --turntable",
+        ),
+        (&["-o", "a.mp4"], "--output: a.mp4: is a film's"),
         (&["--path", "path.json", "--turntable", "1"], "cannot be used with"),
         (&["--path", "path.json", "--eye", "1,1,1"], "cannot be used with"),
         (&["--path", "bad.json"], "bad.json: path: no camera; expected one at least"),
