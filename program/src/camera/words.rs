@@ -21,12 +21,12 @@ pub fn words(camera: &Camera) -> String {
     words.join(" ")
 }
 
-/// The degrees that are so many radians, or nearly so: dividing by π may round to a neighbor.
+/// The degrees that are so many radians, or nearly so: dividing by π may round to a neighbor. Of several the one that is written shortest.
 pub fn degrees(angle_rad: f64) -> f64 {
     let nearest = angle_rad.to_degrees();
     let neighbors = [nearest, nearest.next_up(), nearest.next_down()];
-    let exact = neighbors.into_iter().find(|degrees| degrees.to_radians() == angle_rad);
-    exact.unwrap_or(nearest)
+    let exact = neighbors.into_iter().filter(|degrees| degrees.to_radians() == angle_rad);
+    exact.min_by_key(|degrees| degrees.to_string().len()).unwrap_or(nearest)
 }
 
 #[cfg(test)]
@@ -36,8 +36,9 @@ mod tests {
     #[test]
     fn degrees_come_back_as_the_same_angle() {
         for i in 1..180_000 {
-            let degrees_given = f64::from(i) * 1e-3;
-            assert_eq!(degrees(degrees_given.to_radians()).to_radians(), degrees_given.to_radians(), "{i}");
+            let degrees_given = f64::from(i) / 1000.0;
+            // As it was given: 30 is not told as 29.999999999999996.
+            assert_eq!(degrees(degrees_given.to_radians()).to_string(), degrees_given.to_string(), "{i}");
         }
         assert_eq!(degrees(Camera::DEFAULT_FOV_Y_RAD).to_radians(), Camera::DEFAULT_FOV_Y_RAD);
         for i in 1..10_000 {
