@@ -112,7 +112,8 @@ impl Viewer {
     pub fn write_picture(&mut self) {
         let path = free_name("surfel", "png");
         match self.picture_to(path.clone()) {
-            Ok(true) => self.tell(&format!("{} is written", path.display())),
+            // The standard error has heard of it.
+            Ok(true) => self.ui.tell(&format!("{} is written", path.display())),
             Ok(false) => {}
             Err(error) => self.tell(&error.to_string()),
         }

@@ -31,7 +31,8 @@ impl Viewer {
         let shown = rounded(&words, self.decimals());
         let told = match (words.is_empty(), how) {
             (true, _) => "nothing is cut".to_owned(),
-            (false, Cutting::Box) => format!("{shown}: around all; = cuts away, - less"),
+            (false, Cutting::Plane) => format!("{shown}: = cuts deeper, - less deep"),
+            (false, Cutting::Box) => format!("{shown}: around all; = cuts deeper, - less deep"),
             (false, _) => shown,
         };
         self.ui.tell(&told);
@@ -52,7 +53,8 @@ pub fn words(settings: &Settings) -> String {
 /// A plane through a point, of which what is farther along an axis is left; none where there is one.
 fn plane(settings: &Settings, point: DVec3, axis: DVec3) -> Settings {
     let clip_planes = match settings.clip_planes.0.is_empty() {
-        true => ClipPlanes([[axis.x, axis.y, axis.z, axis.dot(point)]].into()),
+        // Without zeros that are negative, which would be told so.
+        true => ClipPlanes([[axis.x, axis.y, axis.z, axis.dot(point)].map(|part| part + 0.0)].into()),
         false => ClipPlanes::default(),
     };
     Settings { clip_planes, clip_box: ClipBox(None), ..settings.clone() }
@@ -89,6 +91,7 @@ mod tests {
         let none = Settings::default();
         let cut = plane(&none, DVec3::new(0.0, 0.0, 2.0), DVec3::Z);
         assert_eq!(words(&cut), "--clip-plane 0,0,1,2");
+        assert_eq!(words(&plane(&none, -DVec3::X, DVec3::Y)), "--clip-plane 0,1,0,0");
         assert_eq!(*cut.clip_planes.0, [[0.0, 0.0, 1.0, 2.0]]);
         assert_eq!(*moved(&cut, 0.5, 0.1).clip_planes.0, [[0.0, 0.0, 1.0, 2.5]]);
         assert_eq!(plane(&cut, DVec3::ZERO, DVec3::Z), none);

@@ -8,7 +8,10 @@ use surfel::{
 };
 
 use super::{capture::free_name, keys::OnPath, viewer::Viewer};
-use crate::camera::{path_text, read_path};
+use crate::{
+    camera::{path_text, read_path},
+    console,
+};
 
 /// Seconds from one place to the next.
 const STEP_SECS: f64 = 2.0;
@@ -87,7 +90,11 @@ impl Viewer {
             }
             OnPath::Remove => {
                 self.path.places.pop();
-                Ok(format!("the path has {} places", self.path.places.len()))
+                Ok(match self.path.places.len() {
+                    0 => "the path has no place".to_owned(),
+                    1 => "the path has 1 place".to_owned(),
+                    count => format!("the path has {count} places"),
+                })
             }
             OnPath::Play if self.path.plays() => {
                 self.path.playing = None;
@@ -97,7 +104,8 @@ impl Viewer {
                 self.path.playing = Some((Instant::now(), path));
                 "the path is played".to_owned()
             }),
-            OnPath::Save => self.save_path(),
+            // The command is for a shell, too.
+            OnPath::Save => self.save_path().inspect(|text| console::say(text)),
         };
         match done {
             Ok(text) => self.ui.tell(&text),

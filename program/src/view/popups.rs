@@ -9,8 +9,14 @@ use super::{
 
 fn popup(context: &Context, name: &str, (align, offset): (Align2, [f32; 2]), add: impl FnOnce(&mut Ui)) {
     let frame = Frame::popup(&context.style()).fill(visuals().panel_fill);
-    let area = Area::new(Id::new(name)).anchor(align, Vec2::from(offset)).constrain(true);
-    area.show(context, |ui| frame.show(ui, add));
+    let (id, size) = (Id::new(name), |rect: egui::Rect| rect.size().round());
+    let before = context.memory(|memory| memory.area_rect(id)).map(size);
+    let area = Area::new(id).anchor(align, Vec2::from(offset)).constrain(true);
+    let shown = area.show(context, |ui| frame.show(ui, add));
+    if before != Some(size(shown.response.rect)) {
+        // It was put where one of the size before has room: once more, before it is seen.
+        context.request_discard("what pops up has another size");
+    }
 }
 
 /// All keys, in as many columns as there is room for; whether they have it from left to right.
@@ -108,6 +114,23 @@ pub fn color_bar(context: &Context, label: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn messages_lie_within_the_window_from_the_first_frame_on() {
+        let context = Context::default();
+        let rect = egui::Rect::from_min_size(egui::Pos2::ZERO, Vec2::new(600.0, 450.0));
+        let mut texts = Vec::new();
+        for number in 0..9 {
+            texts.push("place 1 of the path");
+            let input = egui::RawInput { screen_rect: Some(rect), ..Default::default() };
+            let output = context.run(input, |context| messages(context, None, &texts));
+            let lines = output.shapes.iter().filter(|clipped| matches!(clipped.shape, egui::Shape::Text(_)));
+            let places: Vec<_> = lines.map(|clipped| clipped.shape.visual_bounding_rect()).collect();
+            let bottom = places.iter().map(|place| place.bottom()).fold(0.0, f32::max);
+            assert_eq!(places.len(), number + 1);
+            assert!((410.0..436.0).contains(&bottom), "{number}: {bottom}");
+        }
+    }
 
     #[test]
     fn the_keys_have_room_in_windows_of_usual_widths() {
