@@ -60,8 +60,12 @@ void main()
         vec3 steps = 255.0 * abs(srgb_of(shown_of(picture)) - srgb_of(shown_of(other)));
         color.rgb = color_of_steps(max(steps.x, max(steps.y, steps.z)));
     }
-    else if (MODE == SHOWS_BOTH && gl_FragCoord.x >= split_px)
-        color.rgb = gl_FragCoord.x < split_px + 1.0 ? vec3(1) : shown_of(other);
+    else if (MODE == SHOWS_BOTH && gl_FragCoord.x >= split_px - 1.0)
+    {
+        // A white line between black ones is seen over any color.
+        float column = floor(gl_FragCoord.x - split_px);
+        color.rgb = column > 1.0 ? shown_of(other) : vec3(column == 0.0 ? 1.0 : 0.0);
+    }
     else
         color.rgb = shown_of(picture);
 }

@@ -27,6 +27,8 @@ pub fn keys(context: &Context) -> bool {
     let mut has_room = false;
     popup(context, "keys", (Align2::CENTER_CENTER, [0.0; 2]), |ui| {
         ui.set_max_size(size - Vec2::splat(60.0));
+        // Beside what it scrolls, not over it.
+        ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
         let shown = ScrollArea::both().show(ui, |ui| {
             let of_keys = BINDINGS.iter().map(|binding| (binding.key, binding.help));
             let lines: Vec<(&str, &str)> = MOUSE.iter().copied().chain(of_keys).collect();

@@ -5,7 +5,7 @@ use std::{thread, time::Duration};
 use super::{
     CAMERA,
     rest::cube,
-    screen::Screen,
+    screen::{Screen, Shot},
     window::{Folder, View, render, surfel},
 };
 
@@ -200,5 +200,21 @@ fn the_panel_is_used_by_keys_alone() {
     let unfiltered = render(&folder, &[&first[..], &["--filter", "none"]].concat());
     assert!(unfiltered.differs_from(&whole) > 20);
     view.wait_for(&unfiltered);
+    view.end();
+}
+
+/// The line between two pictures is seen over a white background, too, and what is beside it is theirs.
+#[test]
+fn a_line_that_any_color_shows_is_between_two_pictures() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    let words = [&["a.ply", "--size", "201x200"], &CAMERA[..]].concat();
+    let mut view = View::open(&screen, &folder, &words);
+    view.wait_for(&render(&folder, &words));
+    screen.key("y");
+    screen.key("x");
+    // The first row is above the names.
+    let row = |shot: &Shot| [98, 99, 100, 101, 102, 103].map(|x| shot.pixels[x][1]);
+    view.wait_until("a line is shown", |shot| row(shot) == [255, 0, 255, 0, 255, 255]);
     view.end();
 }
