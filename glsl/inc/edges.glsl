@@ -12,7 +12,7 @@
 // for what it is where the surface ends, and stretched above one half elsewhere, so that it is whole from WHOLE_EDGE_SUM on. How steeply A falls tells
 // which: at the border of a half plane A = Phi(d / (sigma h)), d the distance in pixels, and falls by phi(Phi^-1(A)) / (sigma h) a pixel, which is
 // A (1 - A) (2.15 - 2.2 A (1 - A)) over sigma h within 0.01. Inside A falls by a fifth of that, mostly. Where little is missing, noise may be as steep:
-// from A = 0.95 on it counts as whole.
+// from A = 0.92 on it counts as whole.
 //
 // Of what ends A is a little small: weights end with the kernel, at two standard deviations, and the rims of the last splats stand out of what
 // is whole. t - A over A is 0.225 sqrt(A) (1 - A)^2 within 0.01 for balls and scans whose splats are up to some pixels large (LEFT_OUT).
@@ -72,7 +72,7 @@ float edge_opacity(float summed, float own, float fall)
     float left = sum * (1.0 - sum);
     float steepest = left * (2.15 - 2.2 * left);
     float steep = LN_2 * KERNEL_A * FILTER_PX * fall; // over sigma h, of which sigma is 1/2
-    float ends = smooth_step((steep - 0.35 * steepest) / max(0.4 * steepest, 1e-6)) * smooth_step((0.95 - sum) * 10.0);
+    float ends = smooth_step((steep - 0.45 * steepest) / max(0.35 * steepest, 1e-6)) * smooth_step((0.92 - sum) * 10.0);
     float stretched = min(sum, 0.5) + max(sum - 0.5, 0.0) * (0.5 / (WHOLE_EDGE_SUM - 0.5));
     float at_end = sum + (PARTED ? 0.0 : LEFT_OUT) * sqrt(sum) * (1.0 - sum) * (1.0 - sum);
     float opacity = FORMULA(FORMULA_EDGE_OPACITY, max(mix(stretched, at_end, ends), own) / NEARLY_WHOLE);

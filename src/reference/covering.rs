@@ -85,8 +85,8 @@ fn whole(sum: f64, fall: f64, alone: f64, covering: &Covering) -> f64 {
     // φ(Φ⁻¹(A)) is this within 0.01.
     let steepest = a * (1.0 - a) * (2.15 - 2.2 * a * (1.0 - a));
     let steep = fall * covering.h_px / 2.0;
-    let ends = if steepest > 0.0 { smooth_step((steep / steepest - 0.35) / 0.4) } else { 0.0 };
-    let ends = ends * smooth_step((0.95 - a) / 0.1);
+    let ends = if steepest > 0.0 { smooth_step((steep / steepest - 0.45) / 0.35) } else { 0.0 };
+    let ends = ends * smooth_step((0.92 - a) / 0.1);
     let inside = if a < 0.5 { a } else { 0.5 + 0.5 * (a - 0.5) / (WHOLE_SUM - 0.5) };
     let at_end = a + covering.left_out * a.sqrt() * (1.0 - a).powi(2);
     ((inside + ends * (at_end - inside)).max(alone) / NEARLY_WHOLE).min(1.0)

@@ -108,7 +108,7 @@ fn pipelines(all: bool) -> Result<Vec<(PipelineNames, PipelineRecipe)>> {
     Ok(told_apart(found))
 }
 
-/// Adds to the shaders of pipelines with equal names the specialization constants by which they differ, as `number=value`.
+/// Adds to the shaders of pipelines with equal names the specialization constants by which they differ, as `number=value`, and whether they test depth.
 fn told_apart(mut pipelines: Vec<(PipelineNames, PipelineRecipe)>) -> Vec<(PipelineNames, PipelineRecipe)> {
     let mut alike: HashMap<PipelineNames, Vec<usize>> = HashMap::new();
     for (place, (names, _)) in pipelines.iter().enumerate() {
@@ -119,8 +119,12 @@ fn told_apart(mut pipelines: Vec<(PipelineNames, PipelineRecipe)>) -> Vec<(Pipel
             places.iter().map(|place| pipelines[*place].1.constants().to_vec()).collect();
         let differs = |constant: &&(u32, u32)| !constants.iter().all(|of| of.contains(constant));
         for (place, own) in places.iter().zip(&constants) {
-            let own: Vec<String> =
+            let mut own: Vec<String> =
                 own.iter().filter(differs).map(|(number, value)| format!("{number}={value}")).collect();
+            let tests = |place: &usize| pipelines[*place].1.tests_depth();
+            if tests(place) && !places.iter().all(tests) {
+                own.push("depth test".to_owned());
+            }
             pipelines[*place].0.shaders += &format!(" ({})", own.join(", "));
         }
     }

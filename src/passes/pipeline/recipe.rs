@@ -85,6 +85,11 @@ impl PipelineRecipe {
         key.color_formats.first() == Some(&sum_format(Accumulate::F32))
     }
 
+    /// Whether what it draws may be hidden by a depth that is there.
+    pub fn tests_depth(&self) -> bool {
+        matches!(&self.key, Key::Graphics(key) if key.depth.is_some())
+    }
+
     /// Whether it projects splats or draws them, and so depends on rasterizer and filter.
     pub fn projects_splats(&self) -> bool {
         self.has(SPEC_RASTERIZER)
