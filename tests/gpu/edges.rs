@@ -19,7 +19,7 @@ use surfel::{
 };
 
 /// As data there is no background, and sums are exact.
-fn covering(hard: Hard) -> Hard {
+pub(crate) fn covering(hard: Hard) -> Hard {
     with(&hard, |settings| {
         settings.edges = Edges::Coverage;
         settings.rasterizer = Rasterizer::Compute;

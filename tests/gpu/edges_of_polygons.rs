@@ -5,24 +5,16 @@ use crate::common::{
     scenes::{self, Hard, transparent},
     shared, with, with_limits,
 };
+use crate::edges::covering;
 use glam::DVec3;
 use surfel::{
     renderer::Headless,
     scene::{
-        Camera, ClipPlanes, Crop, CropView, Edges, Rasterizer, Samples, Scene, Settings, Shading,
-        TileInvocations, Transition,
+        Camera, ClipPlanes, Crop, CropView, Edges, Samples, Scene, Settings, Shading, TileInvocations,
+        Transition,
     },
     selftest::{light::compare_light, tolerance::LIGHT},
 };
-
-/// As data there is no background, and sums are exact.
-fn covering(hard: Hard) -> Hard {
-    with(&hard, |settings| {
-        settings.edges = Edges::Coverage;
-        settings.rasterizer = Rasterizer::Compute;
-        settings.background = None;
-    })
-}
 
 /// A ball of splats between a ball of polygons before it and a slanted wall of polygons behind it; `veiled`: and transparent balls, which these hide in part.
 fn between(veiled: bool) -> Hard {
