@@ -8,6 +8,6 @@ layout(set = 0, binding = BIND_SUMS_DEPTH) uniform texture2D host_depth;
 
 void main()
 {
-    float d = texelFetch(host_depth, ivec2(gl_FragCoord.xy) + push.corner_px, 0).r;
+    float d = texelFetch(host_depth, push.corner_px + turned_over(ivec2(gl_FragCoord.xy)), 0).r;
     gl_FragDepth = clamp((d - push.offset) / push.scale, 0.0, 1.0);
 }

@@ -40,7 +40,7 @@ vec3 encoded(vec3 linear)
 
 void main()
 {
-    ivec2 pixel = ivec2(gl_FragCoord.xy) - push.corner_px;
+    ivec2 pixel = turned_over(ivec2(gl_FragCoord.xy) - push.corner_px);
     vec4 light = texelFetch(surface, pixel, 0);
     if (DEPTH) {
         float w = texelFetch(surface_depth, pixel, 0).r;
@@ -60,6 +60,7 @@ void main()
 #endif
 #if defined(MOTION)
         motion = known ? motion_of(object, vec4(vec2(pixel) + 0.5, 1.0, w)) : vec2(0.0);
+        motion.x = push.columns > 0 ? -motion.x : motion.x;
 #endif
 #endif
     } else if (light.a == 0.0) {

@@ -311,7 +311,7 @@ typedef struct SurfelScene SurfelScene;
 typedef struct SurfelSettings SurfelSettings;
 
 /**
- * One view, of one frame at a time: with several frames in flight a host has one for each. One thread at a time may use it.
+ * One view, which keeps what passes leave for the draws of the frame that was prepared last: that is drawn before the next one is prepared. With several frames in flight a host has one for each. One thread at a time may use it.
  */
 typedef struct SurfelView SurfelView;
 
@@ -1300,9 +1300,10 @@ typedef struct SurfelFrame {
    */
   uint32_t measures;
   /**
-   * 0; else it is refused.
+   * What the matrices show is a mirror's picture, as of a planar reflection: its view is turned over by the mirror's plane, or its projection along x. Refused
+   * where it is not said and is, or is said and is not.
    */
-  uint32_t reservedToo;
+  VkBool32 mirrored;
 } SurfelFrame;
 
 /**

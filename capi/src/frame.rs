@@ -82,8 +82,9 @@ pub struct SurfelFrame {
     pub most_pipelines: u64,
     /// What is measured, for `surfel_view_measured`: `SURFEL_MEASURE_*`; 0: the time of each pass where `timed` says so, else nothing.
     pub measures: u32,
-    /// 0; else it is refused.
-    pub reserved_too: u32,
+    /// What the matrices show is a mirror's picture, as of a planar reflection: its view is turned over by the mirror's plane, or its projection along x. Refused
+    /// where it is not said and is, or is said and is not.
+    pub mirrored: vk::Bool32,
 }
 
 /// Nothing, or what `timed` says: in `measures` of `SurfelFrame`, as those that follow.
@@ -100,7 +101,7 @@ unsafe impl Struct for SurfelFrame {
     const TYPE: SurfelStructureType = SurfelStructureType::Frame;
 
     fn reserved(&self) -> u32 {
-        self.reserved | self.reserved_too
+        self.reserved
     }
 }
 
@@ -213,6 +214,7 @@ unsafe fn with_scenes<'a>(
         scenes,
         camera: &camera,
         camera_before: moved.then_some(&was),
+        mirrored: given.mirrored != vk::FALSE,
         settings: &settings,
         corner_px: [given.x, given.y],
         hides,

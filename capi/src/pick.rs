@@ -109,7 +109,13 @@ pub unsafe extern "C" fn surfel_pick(
                     .scenes
                     .get(scene as usize)
                     .ok_or_else(|| Failure::invalid(format!("scene {scene}: the frame has {count}")))?;
-                let (camera, _) = seen.camera.camera(seen.settings.size_px)?;
+                let size_px = seen.settings.size_px;
+                // Of a mirror's picture the one that is turned over is looked at.
+                let (camera, x) = match seen.mirrored {
+                    true => (seen.camera.of_mirror(), if x < size_px[0] { size_px[0] - 1 - x } else { x }),
+                    false => (*seen.camera, x),
+                };
+                let (camera, _) = camera.camera(size_px)?;
                 let mut settings = seen.settings.clone();
                 let cuts = settings.clip_box.0.is_some() || !settings.clip_planes.0.is_empty();
                 if cuts && placed.at != Placement::default() {

@@ -20,7 +20,7 @@ use crate::{
     structs::{Struct, SurfelStructureType, read},
 };
 
-/// One view, of one frame at a time: with several frames in flight a host has one for each. One thread at a time may use it.
+/// One view, which keeps what passes leave for the draws of the frame that was prepared last: that is drawn before the next one is prepared. With several frames in flight a host has one for each. One thread at a time may use it.
 pub struct SurfelView {
     view: View,
     renderer: Arc<Renderer>,

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use surfel::{
+    embed::{MemoryHeap, MemoryHeaps},
     notes::counted,
     renderer::{ExplainedChunk, ExplainedMesh, Explanation},
 };
@@ -13,6 +14,19 @@ pub fn text(explanation: &Explanation, listed: Option<u64>) -> String {
     // Writing to a string can't fail.
     let _ = write(&mut text, explanation, listed);
     text
+}
+
+/// How much memory the device has, and how much of it this process may have.
+pub fn heaps(heaps: &MemoryHeaps) -> String {
+    let of = |heap: &MemoryHeap| {
+        let own = if heap.is_local { ", the device's own" } else { "" };
+        match heap.usage {
+            Some(usage) => format!("{} bytes{own}, budget {} bytes, {usage} in use", heap.size, heap.budget),
+            None => format!("{} bytes{own}, budget not told", heap.size),
+        }
+    };
+    let lines = heaps.heaps().iter().enumerate().map(|(i, heap)| format!("memory, heap {i}: {}\n", of(heap)));
+    lines.collect()
 }
 
 fn write(text: &mut String, explanation: &Explanation, listed: Option<u64>) -> std::fmt::Result {

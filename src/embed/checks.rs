@@ -34,7 +34,7 @@ impl View {
                 let (compare, is) =
                     (self.rendering.compare, if nearer_is_greater { "greater" } else { "less" });
                 let problem = format!(
-                    "{compare:?}, but by the camera's matrices what is nearer has the {is} depth: is depth reversed, or the viewport flipped?"
+                    "{compare:?}, but by the camera's matrices what is nearer has the {is} depth: is depth reversed, the viewport flipped, or the picture a mirror's?"
                 );
                 Err(Error::option("compare", problem))
             }
@@ -86,11 +86,27 @@ impl View {
         }
     }
 
+    /// One of a frame's cameras, and the host's depth; of a mirror's picture the one that shows it turned over.
+    pub(super) fn camera_of(frame: &ViewFrame<'_>, camera: &HostCamera) -> Result<(Camera, DepthOfHost)> {
+        let size_px = frame.settings.size_px;
+        let turned_over = if frame.mirrored { camera.of_mirror() } else { *camera };
+        turned_over.camera(size_px).map_err(|error| {
+            // What is a camera by itself is none of a mirror's.
+            match frame.mirrored && camera.camera(size_px).is_ok() {
+                true => Error::option(
+                    "mirrored",
+                    "the camera's picture is no mirror's: expected one whose x, or y, is turned over",
+                ),
+                false => error,
+            }
+        })
+    }
+
     /// The camera of the frame before, where it is another one.
     pub(super) fn camera_before(frame: &ViewFrame<'_>) -> Result<Option<Camera>> {
         let of = |camera: &HostCamera| {
             let refused = |error| Error::option("camera_before", format!("{error}"));
-            Ok(camera.camera(frame.settings.size_px).map_err(refused)?.0)
+            Ok(Self::camera_of(frame, camera).map_err(refused)?.0)
         };
         frame.camera_before.map(of).transpose()
     }

@@ -18,7 +18,7 @@ impl View {
     ///
     /// # Safety
     /// `commands` are those of [`View::prepare`], or others that are submitted after them to the same queue; they are inside of a rendering as the
-    /// view was made for, which covers the view's area. The view stays alive, and is not prepared again, until they have run.
+    /// view was made for, which covers the view's area. They are recorded before those of the next [`View::prepare`], or submitted before them; the view stays alive until they have run.
     pub unsafe fn draw(&self, renderer: &Renderer, commands: vk::CommandBuffer) -> Result<()> {
         self.check_renderer(renderer)?;
         let Some(Prepared { area, depth, draws, objects }) = &self.prepared else {

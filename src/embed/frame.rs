@@ -10,6 +10,15 @@ use crate::{
 };
 
 /// What a view shows in a frame, and from where.
+///
+/// ```no_run
+/// use surfel::{Settings, embed::{HostCamera, Placed, ViewFrame}};
+///
+/// /// The right one of two pictures side by side.
+/// fn right<'a>(scenes: &'a [Placed<'a>], camera: &'a HostCamera, settings: &'a Settings) -> ViewFrame<'a> {
+///     ViewFrame { corner_px: [settings.size_px[0] as i32, 0], ..ViewFrame::new(scenes, camera, settings) }
+/// }
+/// ```
 #[derive(Clone, Copy)]
 pub struct ViewFrame<'a> {
     /// What is shown, each where it stands: the list may differ from frame to frame, nothing is uploaded by that.
@@ -18,6 +27,9 @@ pub struct ViewFrame<'a> {
     pub camera: &'a HostCamera,
     /// From where the frame before was seen, of which motion follows; `None`: from there, too. Its picture had the same size.
     pub camera_before: Option<&'a HostCamera>,
+    /// What the camera's matrices show is a mirror's picture, as a planar reflection of the host's is: its view turned over by the mirror's plane, or its projection along x. Who has flipped no
+    /// mirror into them has y the wrong way around ([`HostCamera::flips_y`]), or a left-handed world ([`HostCamera::of_left_handed`]): so it is said, and refused where it is not said.
+    pub mirrored: bool,
     /// How. The size is the view's, in pixels; the background is the host's picture, whatever is said here.
     pub settings: &'a Settings,
     /// Where the view's top left corner lies in the host's images, in pixels.
@@ -32,7 +44,7 @@ pub struct ViewFrame<'a> {
 }
 
 impl<'a> ViewFrame<'a> {
-    /// Scenes, seen by a camera, in the top left corner of the host's images, with nothing of the host's that hides, nothing timed, and nothing moved; pipelines are
+    /// Scenes, seen by a camera, in the top left corner of the host's images, with nothing of the host's that hides, nothing timed, nothing moved, and no mirror; pipelines are
     /// made.
     pub fn new(scenes: &'a [Placed<'a>], camera: &'a HostCamera, settings: &'a Settings) -> Self {
         let missing = MissingPipelines::Make;
@@ -40,6 +52,7 @@ impl<'a> ViewFrame<'a> {
             scenes,
             camera,
             camera_before: None,
+            mirrored: false,
             settings,
             corner_px: [0; 2],
             hides: None,

@@ -16,21 +16,24 @@ mod draw;
 mod fields;
 mod frame;
 mod images;
+mod measured;
 mod motion;
 mod onto;
 mod over;
 mod scenes;
 mod table;
 mod to;
+mod under_way;
 mod update;
 mod view;
 
 pub use crate::{
+    frame::FrameSlot,
     graph::{
         ImageState,
         execute::{FrameProfile, PassCounts, PassFigures, PassProfile, Profile},
     },
-    passes::MissingPipelines,
+    passes::{MissingPipelines, PickPlan, Picked, PickedPart},
     prepare::{DynamicBuffers, DynamicSplats, NO_TINT, Placed, PreparedScene, dynamic},
     renderer::Renderer,
     scene::{HostCamera, Placement},

@@ -13,6 +13,19 @@ use crate::{
 };
 
 /// An image of a host's that a view is drawn onto: with the samples that its rendering has, one layer, one mip level.
+///
+/// ```no_run
+/// use surfel::{ash::vk, embed::{HostImage, ImageState}};
+///
+/// /// What was in it goes; afterwards it is copied.
+/// fn target(image: vk::Image, view: vk::ImageView, extent: vk::Extent2D) -> HostImage {
+///     let (stages, access) = (vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ);
+///     let nothing = ImageState { stages, access: vk::AccessFlags2::NONE, layout: vk::ImageLayout::UNDEFINED };
+///     let copied = ImageState { stages, access, layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL };
+///     let whole = HostImage::color(image, view, vk::Format::R16G16B16A16_SFLOAT, extent);
+///     HostImage { before: nothing, after: copied, ..whole }
+/// }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct HostImage {
     /// The image.

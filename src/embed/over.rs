@@ -11,6 +11,19 @@ use crate::{
 };
 
 /// What the host's rendering is, within which a view is drawn: as in `VkPipelineRenderingCreateInfo`.
+///
+/// ```no_run
+/// use surfel::{ash::vk, embed::{Renderer, Rendering, View}};
+///
+/// /// A picture with numbers of objects, tested by a depth that is not reversed; and a map of shadows.
+/// fn views(renderer: &Renderer) -> surfel::Result<[View; 2]> {
+///     let compare = vk::CompareOp::LESS;
+///     let color_formats = vec![vk::Format::R8G8B8A8_SRGB, vk::Format::R32_UINT];
+///     let picture = Rendering { color_formats, ids: true, compare, ..Rendering::default() };
+///     let shadows = Rendering { color_formats: Vec::new(), compare, ..Rendering::default() };
+///     Ok([View::new(renderer, &picture)?, View::new(renderer, &shadows)?])
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rendering {
     /// The formats of its color attachments. The first, one of [`crate::embed::Requirements::color_formats`], is drawn to, then come those of [`Self::ids`] and [`Self::motion`]; the others are left as they are. For more than

@@ -9,17 +9,14 @@ use super::{
     images::{AFTER, BEFORE, Images},
     motion::Motion,
     over::{Part, Rendering},
-    table::Table,
     to::To,
+    under_way::{OfHost, UnderWay},
 };
 use crate::{
     arena::Arena,
     error::{Error, Result},
     frame::{FrameSlot, SlotParts},
-    graph::{
-        Graph, ImageDesc,
-        execute::{FrameProfile, PassFigures, Physical},
-    },
+    graph::{Graph, ImageDesc, execute::Physical},
     inline_vec::InlineVec,
     passes::{self, FramePlan, HostDepth, Inputs, Place, Source, SurfacePlan, Tints, host::BesideHost},
     prepare::NO_TINT,
@@ -29,17 +26,30 @@ use crate::{
     vk::{Descriptor, Device, PoolSizes},
 };
 
-/// One view of a host, of one frame at a time: with several frames in flight a host has one for each. It keeps what passes leave for draws.
+/// One view of a host. It keeps what passes leave for draws, of the frame that was prepared last: that is drawn before the next one is prepared. With several frames in flight a host has one for
+/// each, so that none waits for draws of the one before.
+///
+/// ```no_run
+/// use surfel::{ash::vk, embed::{Renderer, View, ViewFrame}};
+///
+/// /// `begin` and `end` are around a rendering of the host's, such as the view was made for.
+/// unsafe fn record(view: &mut View, renderer: &Renderer, commands: vk::CommandBuffer, frame: &ViewFrame<'_>, [begin, end]: [&dyn Fn(); 2]) -> surfel::Result<()> {
+///     unsafe { view.prepare(renderer, commands, frame) }?;
+///     begin();
+///     let drawn = unsafe { view.draw(renderer, commands) };
+///     end();
+///     drawn
+/// }
+/// ```
 pub struct View {
     pub(super) device: Device,
     pub(super) rendering: Rendering,
     /// Of the renderer that it was made with, whose pipelines it draws with.
     pub(super) renderer: u64,
-    slot: FrameSlot,
-    images: Images,
-    /// Objects as the host numbers them; tints of what is opaque, and of what is transparent.
-    objects: Table,
-    tints: [Table; 2],
+    pub(super) slot: FrameSlot,
+    pub(super) images: Images,
+    pub(super) of_host: OfHost,
+    pub(super) under_way: UnderWay,
     /// What the frame that was prepared last has to draw.
     pub(super) prepared: Option<Prepared>,
 }
@@ -85,8 +95,8 @@ impl View {
             renderer: renderer.number,
             slot,
             images: Images::default(),
-            objects: Table::default(),
-            tints: Default::default(),
+            of_host: OfHost::default(),
+            under_way: UnderWay::default(),
             prepared: None,
         })
     }
@@ -95,11 +105,12 @@ impl View {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`] for another renderer than the view's, a camera that is none, several samples of a pixel (a host takes them itself, by jittered cameras), something
-    /// transparent beside a host's depth that is not given; as [`Renderer::record`].
+    /// transparent beside a host's depth that is not given, 16 frames of the view that may be under way; as [`Renderer::record`].
     ///
     /// # Safety
-    /// `commands` must be recording, outside of rendering, without an active query, and be submitted to the device's queue. Renderer, scenes, view and the depth image must stay alive until it has run; the frame prepared before in this view
-    /// must have finished, or its commands were reset without being submitted: a view is not prepared twice in one recording, nor in two that are submitted together. The depth image is what it says, and in the state it says.
+    /// `commands` must be recording, outside of rendering, without an active query, and be submitted to the device's queue. Renderer, scenes, view and the depth image must stay alive until it has run. It runs after the frames that were
+    /// prepared before in this view, if those run: they are recorded before it in the same commands, or submitted before. Each of them has finished, or will never run, or is submitted before the [`Device::end_epoch`] that follows its
+    /// `prepare`. The depth image is what it says, and in the state it says.
     pub unsafe fn prepare(
         &mut self,
         renderer: &Renderer,
@@ -135,7 +146,7 @@ impl View {
         }
         renderer.check_settings(settings)?;
         renderer.staging.give_back_idle();
-        let (camera, depth) = frame.camera.camera(settings.size_px)?;
+        let (camera, depth) = Self::camera_of(frame, frame.camera)?;
         self.check_order(depth)?;
         renderer.check_frame(frame.scenes, &camera, settings)?;
         let settings = &to.settings(settings);
@@ -150,7 +161,9 @@ impl View {
         let plan =
             if self.rendering.wants_objects() { plan.with_objects(arena, limits, ahead) } else { plan };
         let finds_objects = plan.objects.is_some();
-        let depth = HostDepth { corner_px: frame.corner_px, ..host_depth(depth, &camera, plan.range) };
+        let columns = if frame.mirrored { settings.size_px[0] as i32 } else { 0 };
+        let depth =
+            HostDepth { corner_px: frame.corner_px, columns, ..host_depth(depth, &camera, plan.range) };
         let format = self.rendering.surface_format();
         let size_px = if ahead.is_none() { settings.size_px } else { [1; 2] };
         let images = self.images.fit(&self.device, (format, size_px), (layered, finds_objects))?;
@@ -158,14 +171,17 @@ impl View {
         let counts_draws = self.device.facts().draw_indirect_count;
         let mut needs = passes::needs(&plan, settings, counts_draws);
         needs.room = needs.room.plus(&SETS_OF_DRAWS);
-        // SAFETY: this function's contract, here and below.
+        if ahead.is_none() {
+            self.under_way.keep_apart(&self.device, &mut self.slot, &mut self.of_host)?;
+        }
+        // SAFETY: this function's contract, here and below: what the host writes is of a frame of an epoch that is done, and so submitted and finished, or never to be.
         unsafe { self.slot.begin(needs, frame.profile) }?;
         // SAFETY: as above.
         let planes = unsafe { self.slot.planes(&plan.planes) }?;
         let mut tints = [None; 2];
         if frame.scenes.iter().any(|placed| placed.tint != NO_TINT) {
             let parts = [&plan.opaque, &plan.transparent];
-            for ((tints, table), part) in tints.iter_mut().zip(&mut self.tints).zip(parts) {
+            for ((tints, table), part) in tints.iter_mut().zip(&mut self.of_host.tints).zip(parts) {
                 let all = arena.list(part.placed().map(|placed| frame.scenes[placed as usize].tint));
                 if !all.is_empty() {
                     // SAFETY: as above.
@@ -241,7 +257,8 @@ impl View {
                 let of = arena.list(frame.scenes.iter().map(|placed| motion.of(placed)));
                 let all = arena.list(drawn.placed().map(|placed| of[placed as usize]));
                 // SAFETY: this function's contract.
-                let (buffer, bytes) = unsafe { self.objects.write(&self.device, "objects of a host", all) }?;
+                let (buffer, bytes) =
+                    unsafe { self.of_host.objects.write(&self.device, "objects of a host", all) }?;
                 let given = [sampled(0, image), (1, Descriptor::Buffer(buffer, bytes))];
                 // SAFETY: as above; view and images live as long as its commands run.
                 Some(unsafe { descriptors.set(&renderer.shaders.objects_set, &given) }?)
@@ -252,37 +269,6 @@ impl View {
         let area = vk::Rect2D { offset: vk::Offset2D { x, y }, extent };
         self.prepared = Some(Prepared { area, depth, draws, objects });
         Ok(())
-    }
-
-    /// How long each pass of the frame took that was prepared last; `None` if it was not to be timed.
-    ///
-    /// # Errors
-    /// Whatever the driver answers.
-    ///
-    /// # Safety
-    /// That frame has finished.
-    pub unsafe fn profile(&self) -> Result<Option<FrameProfile>> {
-        // SAFETY: this function's contract.
-        self.slot.profiler().map(|profiler| unsafe { profiler.read() }).transpose()
-    }
-
-    /// Tells the same pass by pass and answers with the frame's own time, where it was measured; takes nothing from the heap, so that a host may look at each frame.
-    ///
-    /// # Errors
-    /// As [`Self::profile`].
-    ///
-    /// # Safety
-    /// As there.
-    pub unsafe fn each_pass(&self, mut tell: impl FnMut(PassFigures<'_>)) -> Result<Option<f64>> {
-        let Some(profiler) = self.slot.profiler() else { return Ok(None) };
-        // SAFETY: this function's contract.
-        unsafe { profiler.each(&mut tell) }
-    }
-
-    /// Bytes of device memory that the view holds: images for its draws, and what its passes share.
-    pub fn bytes(&self) -> u64 {
-        let tables = [&self.objects, &self.tints[0], &self.tints[1]].map(Table::bytes);
-        self.images.bytes() + tables.iter().sum::<u64>() + self.slot.transient_bytes()
     }
 }
 

@@ -4,5 +4,5 @@ mod slot;
 mod target;
 
 pub use slot::FrameSlot;
-pub(crate) use slot::{Execution, SlotParts};
+pub(crate) use slot::{Execution, SlotParts, Written};
 pub use target::{HeadlessTarget, Target};

@@ -18,15 +18,21 @@ use crate::{
 /// Descriptor sets, queries, plan and transients of one frame at a time.
 pub struct FrameSlot {
     device: Device,
-    descriptors: Option<DescriptorPool>,
+    written: Written,
     profiler: Option<(Profiler, Profile)>,
     occlusion: Option<Occlusion>,
     /// The frame counts with them.
     counts_layers: bool,
-    /// What cuts the frame, where something does: written by the host, so that it takes no pass.
-    planes: Option<Buffer>,
     kept: Kept,
     arena: Arena,
+}
+
+/// What the host writes for a frame, and the device reads while the frame runs: no barrier keeps the next frame's apart.
+#[derive(Default)]
+pub(crate) struct Written {
+    descriptors: Option<DescriptorPool>,
+    /// What cuts the frame, where something does: so that it takes no pass.
+    planes: Option<Buffer>,
 }
 
 /// The parts of a slot, each to be borrowed by itself: bodies of passes borrow the first two.
@@ -49,11 +55,10 @@ impl FrameSlot {
         let device = device.clone();
         Self {
             device,
-            descriptors: None,
+            written: Written::default(),
             profiler: None,
             occlusion: None,
             counts_layers: false,
-            planes: None,
             kept: Kept::default(),
             arena: Arena::new(),
         }
@@ -68,6 +73,11 @@ impl FrameSlot {
     pub(crate) fn give_back(&mut self, mut arena: Arena) {
         arena.reset();
         self.arena = arena;
+    }
+
+    /// Takes what the host has written for another frame, and gives what it has written for the one that was recorded last.
+    pub(crate) fn exchange(&mut self, written: &mut Written) {
+        std::mem::swap(&mut self.written, written);
     }
 
     /// The profiler of the frame recorded last, if it was measured.
@@ -93,7 +103,7 @@ impl FrameSlot {
     /// Makes the slot ready for a frame that takes so much from it.
     ///
     /// # Safety
-    /// The frame recorded last in this slot has finished.
+    /// The frame for which the host has written last what it writes now has finished, and all frames recorded in this slot go to one queue, in their order.
     ///
     /// # Errors
     /// Whatever the driver answers.
@@ -103,7 +113,7 @@ impl FrameSlot {
             self.occlusion = Some(Occlusion::new(&self.device, "layers", queries)?);
         }
         self.counts_layers = queries > 0;
-        match &mut self.descriptors {
+        match &mut self.written.descriptors {
             Some(pool) => {
                 // SAFETY: this function's contract.
                 unsafe { pool.reset() };
@@ -131,7 +141,7 @@ impl FrameSlot {
         }
         let desc =
             BufferDesc { name: "planes", size: PLANES_BYTES, usage: vk::BufferUsageFlags::UNIFORM_BUFFER };
-        let buffer = match &mut self.planes {
+        let buffer = match &mut self.written.planes {
             Some(buffer) => buffer,
             none => none.insert(Buffer::new(&self.device, desc, MemoryUse::Upload)?),
         };
@@ -147,7 +157,7 @@ impl FrameSlot {
     /// # Errors
     /// [`ErrorKind::Graph`] before [`FrameSlot::begin`].
     pub(crate) fn parts(&mut self) -> Result<SlotParts<'_>> {
-        let Some(descriptors) = &self.descriptors else {
+        let Some(descriptors) = &self.written.descriptors else {
             let reason = "the frame slot was not begun".to_owned();
             return Err(ErrorKind::Graph { pass: String::new(), resource: String::new(), reason }.into());
         };

@@ -21,6 +21,26 @@ use crate::{
 
 /// What is known of splats that a host writes. All of it may be wrong by being too large, at the cost of speed, but not by being too small: what lies
 /// outside of the bounds may not be drawn.
+///
+/// ```no_run
+/// use surfel::{ash::vk, embed::{DynamicSplats, PreparedScene, Renderer}, glam::DVec3};
+///
+/// /// Room for ten thousand splats of a closed surface in a box; the buffers are a compute shader's to fill.
+/// fn room(renderer: &Renderer) -> surfel::Result<(PreparedScene, [vk::Buffer; 2])> {
+///     let scene = renderer.dynamic(&DynamicSplats {
+///         capacity: 10_000,
+///         count: 10_000,
+///         origin: DVec3::ZERO,
+///         bounds: [DVec3::splat(-1.0), DVec3::splat(1.0)],
+///         largest_radius: 0.05,
+///         overlap: 2.0,
+///         closed: true,
+///         transparent: false,
+///     })?;
+///     let buffers = scene.dynamic_buffers().unwrap();
+///     Ok((scene, [buffers.shapes, buffers.colors]))
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DynamicSplats {
     /// How many there are room for, at most 4 million and what a storage buffer of the device holds at 32 bytes each.

@@ -7,6 +7,16 @@ use crate::{
 };
 
 /// A prepared scene where a frame shows it. A frame may show several, and one at several places: nothing is uploaded again. What is not in the list is not seen.
+///
+/// ```no_run
+/// use surfel::embed::{Placed, Placement, PreparedScene};
+///
+/// /// At home, and again beside that, half as large, in red.
+/// fn two(scene: &PreparedScene) -> [Placed<'_>; 2] {
+///     let beside = Placement { translation: [3.0, 0.0, 0.0].into(), scale: 0.5, ..Placement::default() };
+///     [Placed::at_home(scene), Placed { tint: [1.0, 0.1, 0.1, 1.0], id: 1, ..Placed::new(scene, beside) }]
+/// }
+/// ```
 #[derive(Clone, Copy)]
 pub struct Placed<'a> {
     /// What is shown.

@@ -42,7 +42,17 @@ use crate::{
     vk::{Device, Limits, Staging, StagingRing},
 };
 
-/// Draws splats on a device.
+/// Draws splats on a device: one for all scenes and views of it.
+///
+/// ```no_run
+/// use surfel::{Scene, ash::vk, embed::{Device, PreparedScene, Renderer}};
+///
+/// unsafe fn upload(device: &Device, commands: vk::CommandBuffer, scene: &Scene) -> surfel::Result<(Renderer, PreparedScene)> {
+///     let renderer = Renderer::new(device, None)?;
+///     let prepared = unsafe { renderer.upload(commands, scene) }?;
+///     Ok((renderer, prepared))
+/// }
+/// ```
 pub struct Renderer {
     device: Device,
     /// No other renderer of this process has it.
@@ -67,12 +77,14 @@ impl Renderer {
     }
 
     /// Pipelines and their layouts.
+    #[cfg_attr(not(feature = "inside"), doc(hidden))]
     pub fn shaders(&self) -> &Shaders {
         &self.shaders
     }
 
     /// Makes a formula of its shaders wrong, from the next frame on; for tests of the tests.
     #[cfg(feature = "test-formulas")]
+    #[cfg_attr(not(feature = "inside"), doc(hidden))]
     pub fn perturb(&mut self, formula: Option<passes::Formula>) {
         self.shaders.perturbed = formula;
     }
@@ -84,6 +96,7 @@ impl Renderer {
 
     /// Stays within lower limits than the device's own: points, storage buffers and images as on another device, so
     /// that its paths can be tried here. A limit above the device's has no effect.
+    #[cfg_attr(not(feature = "inside"), doc(hidden))]
     pub fn lower_limits(&mut self, to: &Limits) {
         let own = self.device.facts().limits;
         self.limits.max_storage_buffer_range = own.max_storage_buffer_range.min(to.max_storage_buffer_range);
@@ -211,6 +224,7 @@ impl Renderer {
     /// target, the buffers of `readbacks`, the slot and the renderer must stay alive until it has run; the frame
     /// recorded before in this slot must have finished. The target is what it says and in its initial state; the host
     /// may read `readbacks` after its own wait.
+    #[cfg_attr(not(feature = "inside"), doc(hidden))]
     pub unsafe fn record(
         &self,
         commands: vk::CommandBuffer,

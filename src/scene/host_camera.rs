@@ -7,6 +7,19 @@ use crate::error::{Error, Result};
 
 /// An engine's camera: any motion and unit, any perspective or orthographic projection with square pixels: off-center, jittered, with y up or down,
 /// with depth reversed or not, finite or infinite.
+///
+/// ```
+/// use surfel::{embed::HostCamera, glam::{DVec3, dcamera::rh::{proj::directx, view::look_at_mat4}}};
+///
+/// // y is up in clip space, as in Direct3D, so that the viewport has a negative height.
+/// let camera = HostCamera {
+///     view_from_world: look_at_mat4(DVec3::new(0.0, 1.0, 4.0), DVec3::ZERO, DVec3::Y),
+///     clip_from_view: directx::perspective_infinite_reverse(0.8, 4.0 / 3.0, 0.1),
+///     flips_y: true,
+/// };
+/// assert!(camera.camera([640, 480]).is_ok());
+/// assert!(camera.camera([640, 640]).unwrap_err().to_string().contains("square"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HostCamera {
     /// From world to the engine's view space, whatever its axes and its unit: a motion, and one scale of all directions.
@@ -51,6 +64,13 @@ impl HostCamera {
         Self { view_from_world: self.view_from_world * MIRRORED, ..self }
     }
 
+    /// The camera whose picture is this one's turned over along x: of a mirror's, which [`Self::camera`] refuses, one that it takes. What is seen in a column is then in the one as far from
+    /// the picture's other side.
+    #[must_use]
+    pub fn of_mirror(self) -> Self {
+        Self { clip_from_view: DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * self.clip_from_view, ..self }
+    }
+
     /// The camera that gives a picture of this size, and the engine's depth.
     ///
     /// # Errors
@@ -85,7 +105,7 @@ impl HostCamera {
         if is_perspective && into.dot(in_world(DVec3::Z * forward)) < 0.0 {
             return refused(
                 "the picture is a mirror's: does y point down in it, or is the viewport flipped? Of a left-handed world see \
-                 HostCamera::of_left_handed",
+                 HostCamera::of_left_handed, of a mirror's view ViewFrame::mirrored",
             );
         }
         // In view-space depths that grow forward.

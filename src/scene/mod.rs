@@ -109,6 +109,15 @@ pub struct MeshObject {
 }
 
 /// The things that are rendered together.
+///
+/// ```
+/// use surfel::{Scene, glam::{DVec3, Vec3}, scene::{Colors, Object, Shapes, Splats}};
+///
+/// let shapes = Shapes::Disks { normals: vec![Vec3::Z], radii: vec![0.5] };
+/// let splats = Splats::new(vec![DVec3::ZERO], shapes, Colors::Uniform([0.2, 0.4, 0.9, 1.0]));
+/// let scene = Scene::from(Object { name: "a disk".to_owned(), splats, closed: false });
+/// assert_eq!(scene.objects[0].splats.positions.len(), 1);
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Splats, in the order in which they are drawn; the image does not depend on it but for rounding.

@@ -6,6 +6,15 @@ use super::Camera;
 use crate::error::{Error, Result};
 
 /// A similarity from a scene's own space to the world: turned, then scaled alike in all directions, then moved. The default leaves it where it is.
+///
+/// ```
+/// use surfel::{embed::Placement, glam::{DMat4, DVec3}};
+///
+/// let matrix = DMat4::from_translation(DVec3::new(0.0, 2.0, 0.0)) * DMat4::from_scale(DVec3::splat(0.5));
+/// let at = Placement::of_matrix(&matrix).unwrap();
+/// assert_eq!((at.scale, at.translation.y), (0.5, 2.0));
+/// assert!(Placement::of_matrix(&DMat4::from_scale(DVec3::new(1.0, 2.0, 1.0))).is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// A unit quaternion.

@@ -211,12 +211,12 @@ impl Device {
     }
 
     /// The epoch in which commands are recorded now.
-    pub(super) fn epoch(&self) -> u64 {
+    pub(crate) fn epoch(&self) -> u64 {
         self.0.epoch.load(Ordering::Acquire)
     }
 
     /// The last epoch that is done, with all before it.
-    pub(super) fn epochs_done(&self) -> u64 {
+    pub(crate) fn epochs_done(&self) -> u64 {
         self.0.done.load(Ordering::Acquire)
     }
 

@@ -36,6 +36,39 @@ pub struct HostAllocation {
 
 /// A host's allocator. It is asked from whichever thread uses a renderer or a view, and behind a lock of the device's: it must not call back.
 ///
+/// ```no_run
+/// use std::ptr::NonNull;
+/// use surfel::{ash::{self, vk}, embed::{HostAllocation, HostMemory, MemoryRequest, MemoryUse}};
+///
+/// /// A memory object for each piece: of a host that knows no better.
+/// struct Plain(ash::Device, vk::PhysicalDeviceMemoryProperties);
+///
+/// unsafe impl HostMemory for Plain {
+///     fn allocate(&self, request: &MemoryRequest<'_>) -> Result<HostAllocation, vk::Result> {
+///         let (device, needs) = (&self.0, request.requirements);
+///         let wanted = match request.touched_by {
+///             MemoryUse::Device => vk::MemoryPropertyFlags::empty(),
+///             _ => vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT,
+///         };
+///         let will_do = |i: &u32| {
+///             needs.memory_type_bits >> i & 1 == 1 && self.1.memory_types[*i as usize].property_flags.contains(wanted)
+///         };
+///         let of_type = (0..self.1.memory_type_count).find(will_do).ok_or(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY)?;
+///         let info = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(of_type);
+///         let memory = unsafe { device.allocate_memory(&info, None) }?;
+///         let mapped = match wanted.is_empty() {
+///             true => None,
+///             false => NonNull::new(unsafe { device.map_memory(memory, 0, needs.size, vk::MemoryMapFlags::empty()) }?.cast()),
+///         };
+///         Ok(HostAllocation { memory, offset: 0, mapped, token: 0 })
+///     }
+///
+///     fn free(&self, allocation: HostAllocation) {
+///         unsafe { self.0.free_memory(allocation.memory, None) }
+///     }
+/// }
+/// ```
+///
 /// # Safety
 /// What [`Self::allocate`] gives is memory of the device, of a type among those asked for, aligned and as large as asked, used by nobody else until it is
 /// given back, and mapped where that is asked for.

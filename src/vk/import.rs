@@ -14,6 +14,17 @@ use super::{
 use crate::error::{ErrorKind, Result};
 
 /// A host's device, for [`Device::import`].
+///
+/// ```no_run
+/// use surfel::{ash::{self, vk}, embed::{Device, Features, Import}};
+///
+/// unsafe fn import(instance: &ash::Instance, physical: vk::PhysicalDevice, device: &ash::Device, queue_family: u32) -> surfel::Result<Device> {
+///     // As the device was created; all that splats can do without is said at `Features`.
+///     let enabled = Features::NEEDED;
+///     let host = Import { instance, debug_utils: false, physical, device, queue_family, enabled, memory: None };
+///     unsafe { Device::import(&host) }
+/// }
+/// ```
 #[derive(Clone)]
 pub struct Import<'a> {
     /// The instance, with its entry points.

@@ -9,6 +9,7 @@ mod conventions;
 mod depth_alone;
 mod faults;
 mod memory;
+mod mirrors;
 mod objects;
 mod onto;
 mod recording;
@@ -19,6 +20,7 @@ mod several;
 mod tints;
 mod transparent;
 mod turning;
+mod twice;
 mod updates;
 mod written;
 
@@ -49,6 +51,8 @@ struct Beside {
     renderer: Renderer,
     device: Device,
     engine: Engine,
+    /// Its cameras' pictures are a mirror's.
+    mirrored: bool,
 }
 
 impl Beside {
@@ -71,9 +75,14 @@ impl Beside {
     }
 
     fn on(engine: Engine, device: Device) -> Self {
-        let style = engine.style;
         let renderer = Renderer::new(&device, None).unwrap();
-        let Style { depth_format, compare, samples, tells_objects, .. } = style;
+        let view = Self::view_of(&renderer, &engine.style);
+        Self { view, renderer, device, engine, mirrored: false }
+    }
+
+    /// A view within the engine's rendering.
+    fn view_of(renderer: &Renderer, style: &Style) -> View {
+        let Style { depth_format, compare, samples, tells_objects, .. } = *style;
         let mut color_formats = vec![COLOR_FORMAT];
         color_formats.extend(OBJECT_FORMATS.into_iter().filter(|_| tells_objects));
         let rendering = Rendering {
@@ -85,8 +94,7 @@ impl Beside {
             samples,
             ..Rendering::default()
         };
-        let view = View::new(&renderer, &rendering).unwrap();
-        Self { view, renderer, device, engine }
+        View::new(renderer, &rendering).unwrap()
     }
 
     fn upload(&self, scene: &Scene) -> PreparedScene {
@@ -121,8 +129,12 @@ impl Beside {
         gives_depth: bool,
     ) {
         let hides = gives_depth.then(|| self.hides());
-        let frame =
-            ViewFrame { hides, camera_before: Some(before), ..ViewFrame::new(scenes, camera, settings) };
+        let frame = ViewFrame {
+            hides,
+            camera_before: Some(before),
+            mirrored: self.mirrored,
+            ..ViewFrame::new(scenes, camera, settings)
+        };
         let in_clip =
             |at: &DVec3| (camera.clip_from_view * camera.view_from_world * at.extend(1.0)).as_vec4();
         let corners = [0, 1, 2].map(|i| in_clip(&corners[i]).to_array());
@@ -169,7 +181,7 @@ impl Beside {
 
     /// All of ours goes, with nothing left and nothing said.
     fn end(self) {
-        let Self { view, renderer, device, engine } = self;
+        let Self { view, renderer, device, engine, .. } = self;
         drop((view, renderer));
         // SAFETY: nothing is under way.
         unsafe { device.epoch_done(device.end_epoch()) };

@@ -203,7 +203,7 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     SurfelFrame other = frame;
     other.measures = 4;
     IS(INVALID_ARGUMENT, surfel_view_prepare(view, engine->commands, &other), "measures is 4");
-    other.measures = 0, other.reservedToo = 1;
+    other.measures = 0, other.reserved = 1;
     IS(NEWER_STRUCT, surfel_view_prepare(view, engine->commands, &other), "reserved is 1");
     IS(OPTION, surfel_view_record(view, engine->commands, &frame, none, 1, &depth), "colors: expected an image for each format");
     IS(OPTION, surfel_view_record(view, engine->commands, &frame, colors, 1, NULL), "depth: the view's rendering has one");

@@ -99,6 +99,7 @@ pub fn picture(engine: &Path) -> Vec<[f32; 3]> {
             scenes: &scenes,
             camera: &HostCamera { view_from_world, clip_from_view, flips_y: false },
             settings: &Settings { size_px: [640, 480], ..Settings::default() },
+            mirrored: false,
             camera_before: None,
             corner_px: [0; 2],
             hides: None,

@@ -23,7 +23,7 @@ pub(super) const BLACK: Start = Start::Clear(ClearValue::Color([0.0; 4]));
 pub(super) const FAR: Start = Start::Clear(ClearValue::Depth(0.0));
 
 /// A graph that may stay for as long as a test.
-pub(in crate::graph) fn graph<Body>() -> Graph<'static, Body> {
+pub(super) fn graph<Body>() -> Graph<'static, Body> {
     // For tools that look for what is lost.
     static NEVER_FREED: Mutex<Vec<usize>> = Mutex::new(Vec::new());
     let arena: &'static Arena = Box::leak(Box::default());

@@ -131,6 +131,8 @@ pub struct HostDepth {
     pub scale: f32,
     /// The host's depth where w is 0.
     pub offset: f32,
+    /// The picture's columns, where it is a mirror's; else 0.
+    pub columns: i32,
 }
 
 /// An object of a host's, and how it has moved since a frame before; see `glsl/inc/host_objects.glsl`.

@@ -26,7 +26,7 @@ impl RoomOf {
 }
 
 /// So many places with nobody, over surfaces of which this is what weights are multiplied by.
-pub(in crate::prepare) fn empties(count: usize, survey: &Survey, inverse_overlap: u32) -> Packed {
+pub(in super::super) fn empties(count: usize, survey: &Survey, inverse_overlap: u32) -> Packed {
     let (shape, color) = (survey.shape_bytes() / 16, survey.color_bytes() / 4);
     let one = [[0, 0, 0, NOBODY.to_bits()], [0, 0, 0, inverse_overlap], [0; 4], [0; 4]];
     Packed {
@@ -38,13 +38,13 @@ pub(in crate::prepare) fn empties(count: usize, survey: &Survey, inverse_overlap
 }
 
 /// Whether a radius is one of somebody.
-pub(in crate::prepare) fn is_there(radius: f32) -> bool {
+pub(in super::super) fn is_there(radius: f32) -> bool {
     !radius.is_sign_negative()
 }
 
 impl Shadow {
     /// The mean over splats is what new ones get.
-    pub(in crate::prepare) fn sum_of_inverse_overlaps(&self, survey: &Survey) -> f64 {
+    pub(in super::super) fn sum_of_inverse_overlaps(&self, survey: &Survey) -> f64 {
         let of_splat = |words: &[[u32; 4]]| f64::from(words[1][3] >> 16) / 16_384.0;
         self.splats.shapes.chunks_exact(survey.shape_bytes() / 16).map(of_splat).sum()
     }
@@ -67,7 +67,7 @@ impl Shadow {
 
 impl Chunk {
     /// What a change of it takes of memory, so that the first one finds it.
-    pub(in crate::prepare) fn make_ready(&mut self) {
+    pub(in super::super) fn make_ready(&mut self) {
         self.radii.reserve(self.blocks.len());
         if let Some(shadow) = &mut self.shadow {
             shadow.above = above(&self.blocks);

@@ -121,6 +121,33 @@ fn what_is_no_camera_is_refused_by_name() {
     }
 }
 
+/// A mirror's picture turned over is that of the camera without it, and the other way around.
+#[test]
+fn a_mirrors_picture_turned_over_is_a_cameras() {
+    let view_from_world = looking(DVec3::new(3.0, 2.0, 4.0), DVec3::ZERO);
+    for (name, clip_from_view, flips_y) in projections() {
+        let host = HostCamera { view_from_world, clip_from_view, flips_y };
+        let mirrored = HostCamera {
+            view_from_world: view_from_world * DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0)),
+            ..host
+        };
+        let (camera, depth) = mirrored.of_mirror().camera(SIZE_PX).unwrap();
+        let (view, focal_px) = (camera.view_from_world(), camera.focal_px(SIZE_PX[1]));
+        let point = DVec3::new(0.3, -0.4, 0.2);
+        let clip = mirrored.clip_from_view * mirrored.view_from_world * point.extend(1.0);
+        let seen = view.point(point);
+        let unit = if camera.is_orthographic() { 1.0 } else { seen.z };
+        let at = camera.middle_px(SIZE_PX)[0] + focal_px * seen.x / unit;
+        let expected = 0.5 * (clip.x / clip.w + 1.0) * f64::from(SIZE_PX[0]);
+        assert!((f64::from(SIZE_PX[0]) - at - expected).abs() < 1e-9, "{name}: {at} {expected}");
+        let of_host = match depth {
+            DepthOfHost::Perspective { a, b } => a + b / seen.z,
+            DepthOfHost::Orthographic { a, b } => a + b * seen.z,
+        };
+        assert!((of_host - clip.z / clip.w).abs() < 1e-10, "{name}: {of_host}");
+    }
+}
+
 /// Engines of left-handed worlds look along +z, y up.
 #[test]
 fn a_left_handed_world_is_drawn_mirrored_with_its_own_matrices() {

@@ -85,7 +85,7 @@ fn an_update_as_large_as_those_before_takes_nothing_from_the_device_and_the_heap
     for frame in 0..SETTLED + 60 {
         let first = 173 * frame % (COUNT - PART);
         let part = part(&mut splats, first, frame);
-        let Beside { engine, renderer, view, device } = &mut beside;
+        let Beside { engine, renderer, view, device, .. } = &mut beside;
         engine.begin();
         let (asked, before) = (memory.asked(), ALLOCATIONS.get());
         for scene in &mut scenes {
@@ -209,7 +209,7 @@ fn a_ring_that_nobody_has_used_for_a_thousand_epochs_is_given_back() {
     let without = held(&beside);
     let part = part(&mut splats, 0, 1);
     let mut frames = |count: usize, updates: bool| {
-        let Beside { engine, renderer, view, device } = &mut beside;
+        let Beside { engine, renderer, view, device, .. } = &mut beside;
         for _ in 0..count {
             engine.begin();
             if updates {

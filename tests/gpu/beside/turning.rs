@@ -111,7 +111,7 @@ fn memory_of_a_large_frame_is_given_back_after_a_thousand_small_ones() {
         [Placed::new(&ball, Placement { translation: DVec3::new(0.0, 0.0, 3.0), ..Placement::default() })];
     let camera = looking(0.0);
     let mut bytes_after = |size_px: [u32; 2], frames: usize| {
-        let Beside { engine, view, renderer, device } = &mut beside;
+        let Beside { engine, view, renderer, device, .. } = &mut beside;
         let settings = Settings { size_px, ..Settings::default() };
         for _ in 0..frames {
             engine.begin();

@@ -60,7 +60,7 @@ impl Closer<'_> {
 ///
 /// Runs of blocks are looked at from the top of their tree: of one that is seen as a whole nothing below is. So what is looked at by itself is at silhouettes, at borders of the
 /// image, near, and where one level of detail follows another; where that is more than so many looks, the rest is left to the device.
-pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
+pub(in super::super) fn potentially_visible_runs<'m>(
     arena: &'m Arena,
     chunk: &Chunk,
     look: &BlockCullView<'_>,
@@ -83,7 +83,7 @@ pub(in crate::passes::plan) fn potentially_visible_runs<'m>(
 }
 
 /// These runs, and in place of some of them their parts.
-pub(in crate::passes::plan) fn closer_runs<'m>(
+pub(in super::super) fn closer_runs<'m>(
     arena: &'m Arena,
     chunk: &Chunk,
     look: &BlockCullView<'_>,
