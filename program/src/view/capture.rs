@@ -117,6 +117,8 @@ impl Viewer {
             Ok(false) => {}
             Err(error) => self.tell(&error.to_string()),
         }
+        // It may be far larger than the window. Errors, such as a lost device, come with the next frame, too.
+        let _ = self.gpu.headless.forget_frames();
     }
 
     /// Whether there was anything to write.

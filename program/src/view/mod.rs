@@ -45,6 +45,7 @@ mod show;
 mod state;
 mod steps;
 mod things;
+mod tidy;
 mod told;
 mod ui;
 mod values;

@@ -12,7 +12,7 @@ use winit::window::Window;
 use super::{
     ViewArguments, anchor::Anchor, capture::Clipboard, document::Document, edits::Edits, files::Files,
     gpu::Gpu, input::Input, keys::Comparing, loading::Loader, navigation::Navigation, on_device::OnDevice,
-    options::Options, pace::Pace, path::Path, picture::Use, steps::Steps, ui::Ui, warm,
+    options::Options, pace::Pace, path::Path, picture::Use, steps::Steps, tidy::Tidies, ui::Ui, warm,
 };
 use crate::console;
 
@@ -86,7 +86,7 @@ pub struct Viewer {
     /// When the costs of frames are looked for.
     pub looks_for_costs: Option<Instant>,
     /// When memory is given back, if nothing is to be drawn by then.
-    pub tidies: Option<Instant>,
+    pub tidies: Tidies,
     /// When pages are looked for that are to come.
     pub looks_for_pages: Option<Instant>,
     /// The program is to end.
@@ -152,7 +152,7 @@ impl Viewer {
             refines: None,
             looks_for_costs: None,
             looks_for_pages: None,
-            tidies: None,
+            tidies: Tidies::default(),
             steps: None,
             scene_number: 0,
             shown: Use::Still,
