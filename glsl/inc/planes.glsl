@@ -48,3 +48,13 @@ bool is_wholly_cut_off(vec2 center_px, float w, float length_px)
     }
     return cut;
 }
+
+// Whether some of it may be beyond a plane, by the same reach. What is no number may be.
+bool may_be_cut(vec2 center_px, float w, float length_px)
+{
+    bool left = true;
+    for (uint plane = 0; plane < PLANES; plane++) {
+        left = left && inside_px(plane, center_px, w) >= 2.0 * length_px + 16.0;
+    }
+    return !left;
+}
