@@ -63,25 +63,21 @@ float sum_of_sharp(Mapping m)
     return mix(1.0, SHARP_SUM, x * x * (3.0 - 2.0 * x));
 }
 
-// How long it is, as lengths at its center are seen.
-float length_px(Mapping m)
+// What planes do to it, as cut_in_box tells.
+bvec2 cut_by_planes(ImageMap map, PixelBox px)
 {
-    return (length(m.s) + length(m.t)) * frame.focal_px / (ORTHOGRAPHIC ? 1.0 : m.p.z);
-}
-
-bool is_beyond_planes(Mapping m)
-{
-    return is_wholly_cut_off(projected_center_px(m), center_depth(m), length_px(m));
-}
-
-bool is_cut_by_planes(Mapping m)
-{
-    return PLANES > 0 && may_be_cut(projected_center_px(m), center_depth(m), length_px(m));
+    vec2 middle_px = 0.5 * (vec2(px.first) + vec2(px.last)) + 0.5 - frame.middle_px;
+    vec2 w_per_px = vec2(map.along_x.z, map.along_y.z);
+    vec2 from_x0 = middle_px - map.x0_px;
+    float w = map.at_x0.z + (w_per_px.x * from_x0.x + w_per_px.y * from_x0.y);
+    return cut_in_box(middle_px, 0.5 * vec2(px.last - px.first), w, w_per_px);
 }
 
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
-uint rect_of(Mapping m, ImageMap map)
+// `cut`: whether planes may cut it.
+uint rect_of(Mapping m, ImageMap map, out bool cut)
 {
+    cut = false;
     uint large = MAY_BE_LARGE ? RECT_CHUNK + CHUNK : RECT_NONE;
     if (!m.regular) {
         return large;
@@ -89,6 +85,13 @@ uint rect_of(Mapping m, ImageMap map)
     PixelBox px;
     if (!pixel_box(splat_box(m), px)) {
         return RECT_NONE;
+    }
+    if (PLANES > 0) {
+        bvec2 is = cut_by_planes(map, px);
+        if (is.x) {
+            return RECT_NONE;
+        }
+        cut = is.y;
     }
     const uvec2 tile = uvec2(TILE_WIDTH, TILE_HEIGHT);
     uvec2 first = uvec2(px.first) / tile;
@@ -126,12 +129,9 @@ void main()
         rects[place] = RECT_NONE;
         return;
     }
-    if (PLANES > 0 && !LISTED && m.regular && is_beyond_planes(m)) {
-        rects[place] = RECT_NONE;
-        return;
-    }
     ImageMap map = regular_map(m);
-    uint rect = rect_of(m, map);
+    bool cut_by_planes;
+    uint rect = rect_of(m, map, cut_by_planes);
     rects[place] = rect;
     if (rect >= RECT_CHUNK) {
         return;
@@ -164,7 +164,6 @@ void main()
         color.y = packUnorm2x16(vec2(unpackUnorm2x16(color.y).x, 2.0 * blended));
     }
     float signed_shift = TWO_SIDED && m.faces_away ? -m.shift : m.shift;
-    bool cut_by_planes = is_cut_by_planes(m);
     records0[place] = vec4(map.x0_px, CLIPS || cut_by_planes ? -w0 : w0, signed_shift);
     records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
     records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);

@@ -51,6 +51,7 @@ mod ui;
 mod values;
 mod viewer;
 mod warm;
+mod writing;
 
 use std::path::PathBuf;
 

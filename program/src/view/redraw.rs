@@ -35,7 +35,8 @@ impl Viewer {
         let rest = self.moved.filter(|_| !self.anchor.waits()).map(|moved| moved + self.pace.rest());
         let refines = self.refines.filter(|_| self.moved.is_none());
         let step = self.steps.as_ref().map(|steps| steps.next_look);
-        let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies.next(), step];
+        let sample = self.next_sample(now);
+        let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies.next(), step, sample];
         let all = [rest, self.anchor.next_look(now), self.files.next_look(), self.ui.next_wake()]
             .into_iter()
             .chain(looks);
@@ -52,6 +53,9 @@ impl Viewer {
         }
         let rests = !self.anchor.waits() && self.moved.is_some_and(|moved| now >= moved + self.pace.rest());
         self.tidy(now);
+        if self.next_sample(now).is_some() {
+            self.write_on();
+        }
         let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
         let pages = self.prepared.as_ref().and_then(OnDevice::pages);
         let pages_are_there = is_due(self.looks_for_pages) && pages.is_none_or(Paged::has_arrived);

@@ -39,7 +39,11 @@ impl Viewer {
             return;
         }
         // Errors, such as a lost device, come with the next frame, too.
-        if self.moved.is_some() || self.steps.is_some() || !self.gpu.is_idle().unwrap_or(true) {
+        if self.moved.is_some()
+            || self.steps.is_some()
+            || self.writing.is_some()
+            || !self.gpu.is_idle().unwrap_or(true)
+        {
             self.tidies = Tidies::after(now);
             return;
         }
