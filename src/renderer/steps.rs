@@ -15,9 +15,8 @@ use crate::{
     passes::MissingPipelines,
 };
 
-/// A step ends with the pass in which so many pipelines have run that never did before: with each such pass, since the longest of them takes as long as all others together. Where a driver
-/// has each of them on disk, a step more costs some milliseconds.
-const NEW_IN_STEP: usize = 1;
+/// A step ends with the pass in which so many pipelines have run that never did before. Where a driver has each of them on disk, a step more costs some milliseconds.
+const NEW_IN_STEP: usize = 3;
 
 /// Counts pipelines that never ran before.
 struct Counter<'a>(RefCell<(&'a mut HashSet<vk::Pipeline>, usize)>);
