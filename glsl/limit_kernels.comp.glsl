@@ -17,8 +17,9 @@ const int first_row = 0;
 vec2 top_px;
 #define PEELS false
 #define OF_LAYERS false
+const bool CUTS = false; // nothing does
 #include "tile/splat.glsl"
-const bool PARTED = false; // of what covers pixels in part, of which there is nothing here
+const bool CURVED = false; // of what covers pixels in part, of which there is nothing here
 #include "tile/pixel.glsl"
 
 layout(constant_id = SPEC_LIMIT_SPLATS) const uint SPLATS = 64; // a multiple of TILE_BATCH

@@ -23,6 +23,9 @@
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
 layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
 layout(constant_id = SPEC_SHARP) const bool SHARP = false; // and edges are covered in part
+layout(constant_id = SPEC_PARTED) const uint PARTED_BY = 0;
+const bool BESIDE_CURVES = PARTED_BY == PARTED_CURVES + PARTED_PLANES; // where others have clip curves, it has to be told that there is none
+const uint ALL_CELLS = (1u << CELLS_ALONG * CELLS_ALONG) - 1;
 layout(constant_id = SPEC_LISTED) const bool LISTED = false; // of inc/list.glsl, records of which lie one behind the other
 
 layout(local_size_x = PROJECT_GROUP_SIZE) in;
@@ -60,15 +63,21 @@ float sum_of_sharp(Mapping m)
     return mix(1.0, SHARP_SUM, x * x * (3.0 - 2.0 * x));
 }
 
-bool is_beyond_planes(Mapping m)
+// What planes do to it, as cut_in_box tells.
+bvec2 cut_by_planes(ImageMap map, PixelBox px)
 {
-    float length_px = (length(m.s) + length(m.t)) * frame.focal_px / (ORTHOGRAPHIC ? 1.0 : m.p.z);
-    return is_wholly_cut_off(projected_center_px(m), center_depth(m), length_px);
+    vec2 middle_px = 0.5 * (vec2(px.first) + vec2(px.last)) + 0.5 - frame.middle_px;
+    vec2 w_per_px = vec2(map.along_x.z, map.along_y.z);
+    vec2 from_x0 = middle_px - map.x0_px;
+    float w = map.at_x0.z + (w_per_px.x * from_x0.x + w_per_px.y * from_x0.y);
+    return cut_in_box(middle_px, 0.5 * vec2(px.last - px.first), w, w_per_px);
 }
 
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
-uint rect_of(Mapping m, ImageMap map)
+// `cut`: whether planes may cut it.
+uint rect_of(Mapping m, ImageMap map, out bool cut)
 {
+    cut = false;
     uint large = MAY_BE_LARGE ? RECT_CHUNK + CHUNK : RECT_NONE;
     if (!m.regular) {
         return large;
@@ -76,6 +85,13 @@ uint rect_of(Mapping m, ImageMap map)
     PixelBox px;
     if (!pixel_box(splat_box(m), px)) {
         return RECT_NONE;
+    }
+    if (PLANES > 0) {
+        bvec2 is = cut_by_planes(map, px);
+        if (is.x) {
+            return RECT_NONE;
+        }
+        cut = is.y;
     }
     const uvec2 tile = uvec2(TILE_WIDTH, TILE_HEIGHT);
     uvec2 first = uvec2(px.first) / tile;
@@ -113,12 +129,9 @@ void main()
         rects[place] = RECT_NONE;
         return;
     }
-    if (PLANES > 0 && !LISTED && m.regular && is_beyond_planes(m)) {
-        rects[place] = RECT_NONE;
-        return;
-    }
     ImageMap map = regular_map(m);
-    uint rect = rect_of(m, map);
+    bool cut_by_planes;
+    uint rect = rect_of(m, map, cut_by_planes);
     rects[place] = rect;
     if (rect >= RECT_CHUNK) {
         return;
@@ -151,21 +164,25 @@ void main()
         color.y = packUnorm2x16(vec2(unpackUnorm2x16(color.y).x, 2.0 * blended));
     }
     float signed_shift = TWO_SIDED && m.faces_away ? -m.shift : m.shift;
-    records0[place] = vec4(map.x0_px, CLIPS ? -w0 : w0, signed_shift);
+    records0[place] = vec4(map.x0_px, CLIPS || cut_by_planes ? -w0 : w0, signed_shift);
     records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
     records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);
     records3[place] = uvec4(floatBitsToUint(normal.yz), color);
     if (CLIPS) {
         Curve curves[2];
         clip_in_image(index, m, curves);
-        vec2 cells = vec2(cut_cells(curves, rect, vec2(TILE_WIDTH, TILE_HEIGHT)));
-        curves[0].b.w = cells.x;
-        curves[1].b.w = cells.y;
+        uvec2 cells = cut_cells(curves, rect, vec2(TILE_WIDTH, TILE_HEIGHT));
+        curves[0].b.w = float(cells.x);
+        curves[1].b.w = float(cut_by_planes ? ALL_CELLS : cells.y);
         [[unroll]] for (uint i = 0; i < 2; i++) {
             uint first = CLIP_VECTORS * place + 3 * i;
             clip_records[first] = curves[i].c;
             clip_records[first + 1] = curves[i].a;
             clip_records[first + 2] = curves[i].b;
+        }
+    } else if (BESIDE_CURVES && cut_by_planes) {
+        [[unroll]] for (uint i = 0; i < CLIP_VECTORS; i++) {
+            clip_records[CLIP_VECTORS * place + i] = vec4(0.0, 0.0, 0.0, i % 3 == 2 ? float(ALL_CELLS) : 0.0);
         }
     }
 }

@@ -46,7 +46,8 @@
 #define SPEC_BLENDED 60       // Constant: levels of detail blend into each other (`inc/levels.glsl`).
 #define SPEC_ORTHOGRAPHIC 57  // Constant: rays are parallel (`inc/projection.glsl`).
 #define SPEC_CLIPS 61         // Constant: clip curves cut parts off some splats (`inc/clip.glsl`).
-#define SPEC_PARTED 63        // Constant: each tile has two lists: of splats, and of those that clip curves cut (`tile/constants.glsl`).
+#define SPEC_PARTED 63        // Constant: each tile has two lists: of splats, and of those that something cuts; sum of `PARTED_*` (`tile/constants.glsl`).
+#define SPEC_CUTS 74          // Constant: tiles are drawn in which something cuts splats (`tile/splat.glsl`).
 #define SPEC_COVERS_LESS 70    // Constant: what covers less than half of a pixel, and only that (`host_over.frag.glsl`).
 #define SPEC_ENCODED 71        // Constant: colors are encoded as sRGB.
 #define SPEC_TWO_SIDED 59     // Constant: splats that face away are drawn, and belong to surfaces of their own (`tile/pixel.glsl`).
@@ -55,6 +56,10 @@
 #define SPEC_OUTLINES 64       // Constant: rims of splats are black (`inc/outline.glsl`).
 #define SPEC_SHARP 72         // Constant: curves cut off some splats of the object, in this chunk or in others.
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
+
+// What cuts splats, for SPEC_PARTED.
+#define PARTED_CURVES 1 // Clip curves.
+#define PARTED_PLANES 2 // Planes that cut the frame.
 
 // Values of SPEC_SUMMED.
 #define SUMMED_OPAQUE 0 // Opaque splats.

@@ -74,7 +74,7 @@ float edge_opacity(float summed, float own, float fall)
     float steep = LN_2 * KERNEL_A * FILTER_PX * fall; // over sigma h, of which sigma is 1/2
     float ends = smooth_step((steep - 0.45 * steepest) / max(0.35 * steepest, 1e-6)) * smooth_step((0.92 - sum) * 10.0);
     float stretched = min(sum, 0.5) + max(sum - 0.5, 0.0) * (0.5 / (WHOLE_EDGE_SUM - 0.5));
-    float at_end = sum + (PARTED ? 0.0 : LEFT_OUT) * sqrt(sum) * (1.0 - sum) * (1.0 - sum);
+    float at_end = sum + (CURVED ? 0.0 : LEFT_OUT) * sqrt(sum) * (1.0 - sum) * (1.0 - sum);
     float opacity = FORMULA(FORMULA_EDGE_OPACITY, max(mix(stretched, at_end, ends), own) / NEARLY_WHOLE);
     return clamp(opacity, 0.0, 1.0);
 }

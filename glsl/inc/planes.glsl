@@ -48,3 +48,17 @@ bool is_wholly_cut_off(vec2 center_px, float w, float length_px)
     }
     return cut;
 }
+
+// What planes do to a surface in a box of pixels, where its depth is w in the middle and changes by w_per_px: x, some cuts off all of it; y, some may cut it. Half a ramp
+// (tile/clip.glsl) is less than a pixel. What is no number may be cut.
+bvec2 cut_in_box(vec2 middle_px, vec2 half_px, float w, vec2 w_per_px)
+{
+    bvec2 cut = bvec2(false);
+    for (uint plane = 0; plane < PLANES; plane++) {
+        vec2 per_px = planes[plane].xy + planes[plane].w * w_per_px;
+        float reach = dot(abs(per_px), half_px) + length(per_px) + 0.0625;
+        float inside = inside_px(plane, middle_px, w);
+        cut = bvec2(cut.x || inside < -reach, cut.y || !(inside > reach));
+    }
+    return cut;
+}

@@ -85,7 +85,7 @@ void cut_by_curves(uint at_once, Splat own, Splat splats[AT_ONCE], uint place, i
     } while (number < most);
 }
 
-// What curves leave of splats if they are `clipped`, and planes; 1 where nothing is cut off.
+// What curves and planes leave of splats if they are `clipped`; 1 where nothing is cut off.
 void find_kept(bool clipped, uint at_once, Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
 {
     [[unroll]] for (uint k = 0; k < at_once; k++) {
@@ -93,10 +93,10 @@ void find_kept(bool clipped, uint at_once, Splat own, Splat splats[AT_ONCE], uin
             kept[k][row] = 1.0;
         }
     }
-    if (clipped) {
+    if (CLIPS && clipped) {
         cut_by_curves(at_once, own, splats, place, kept);
     }
-    if (PLANES > 0) {
+    if (CUT_BY_PLANES && clipped) {
         [[unroll]] for (uint k = 0; k < at_once; k++) {
             cut_by_planes(splats[k], kept[k]);
         }

@@ -7,7 +7,7 @@
 // then to list it. So lists are the same in every run: by segment, and in each in the order of the records.
 //
 // Bins: one a tile; behind them one a chunk, of splats that are drawn by the graphics pipeline (large, or not regular). PARTED: two a tile,
-// the second one of splats that clip curves cut (inc/clip.glsl), so that others need not look for curves.
+// the second one of splats that clip curves (inc/clip.glsl) or planes (inc/planes.glsl) cut, so that others need not look for either.
 
 #include "inc/config.glsl"
 #include "inc/groups.glsl"
@@ -35,7 +35,10 @@ struct TileConstants {
 };
 layout(push_constant, std430) uniform Push { TileConstants push; };
 
-layout(constant_id = SPEC_PARTED) const bool PARTED = false;
+layout(constant_id = SPEC_PARTED) const uint PARTED_BY = 0;
+const bool PARTED = PARTED_BY != 0;
+layout(constant_id = SPEC_CUTS) const bool CUTS = false; // these tiles have some of the second list
+const bool CURVED = (PARTED_BY & PARTED_CURVES) != 0;
 const uint TILE_BINS = PARTED ? 2 : 1;
 #define FIRST_CHUNK_BIN (TILE_BINS * push.tile_count)
 

@@ -29,7 +29,7 @@ Range unhidden(Range range)
             entries[left.end + votes.x] = splat.record;
         }
         left.end += votes.y;
-        left.clipped += CLIPS ? votes_of_tile(kept && base + OWN_LANE < range.clipped).y : votes.y;
+        left.clipped += CUTS ? votes_of_tile(kept && base + OWN_LANE < range.clipped).y : votes.y;
     }
     see_entries();
     return left;

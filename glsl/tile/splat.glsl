@@ -1,6 +1,6 @@
 // A projected splat, all in pixels, so that nothing of its chunk is needed any more, as its record has it:
 // records0: where its map is expanded (x0), from the middle of the image; w0, the depth there, negative where clip curves cut
-// parts off it; the shift, negative (or -0) where it is
+// parts off it, or planes may; the shift, negative (or -0) where it is
 // TWO_SIDED and faces away.
 // records1: u along x and along y, v along x and along y, per pixel. records2: w along x and along y; the share of its weight
 // that a filter leaves; the normal's x. records3: its y and z; red, green, blue and alpha, 16 bits each.
@@ -13,8 +13,7 @@
 #define PLANES_BINDING BIND_PLANES
 #include "inc/planes.glsl"
 
-// Something cuts parts off some splats.
-const bool CUTS = CLIPS || PLANES > 0;
+const bool CUT_BY_PLANES = CUTS && PLANES > 0;
 
 // What tells whether it covers a pixel, and how deep.
 struct Splat {
@@ -33,7 +32,7 @@ bool is_clipped(Splat splat)
 
 float depth_of(Splat splat)
 {
-    return CLIPS ? abs(splat.w0) : splat.w0;
+    return CUTS ? abs(splat.w0) : splat.w0;
 }
 
 // What is summed of it.

@@ -17,7 +17,7 @@ Splat load_splat(uint base, uint end)
     uint record = entry(min(number, end - 1));
     vec4 r0 = record0(record);
     float shift = TWO_SIDED && !BY_SIDES ? abs(r0.w) : r0.w;
-    float w0 = PARTED && !CLIPS ? abs(r0.z) : r0.z; // of a clipped one that is whole in the tile
+    float w0 = PARTED && !CUTS ? abs(r0.z) : r0.z; // of a clipped one that is whole in the tile
     Splat splat = Splat(record, r0.xy, w0, shift, record1(record), record2(record).xy);
     if (number >= end) {
         // Behind the list's end: far off, with a map that covers nothing there.
@@ -57,7 +57,7 @@ uint place_of(uint base, uint first)
 
 void see(uint list_first, uint end, bool clipped)
 {
-    uint batch = clipped ? CLIPPED_BATCH : TILE_BATCH;
+    uint batch = CLIPS && clipped ? CLIPPED_BATCH : TILE_BATCH;
     Splat own;
     uint base = list_first;
     do {
@@ -76,7 +76,7 @@ void see(uint list_first, uint end, bool clipped)
             [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
                 Column column = column_of(splats[k]);
                 [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                    see(splats[k], column, clipped || PLANES > 0 ? kept[k][row] : 1.0, row);
+                    see(splats[k], column, clipped ? kept[k][row] : 1.0, row);
                 }
             }
         }
@@ -86,7 +86,7 @@ void see(uint list_first, uint end, bool clipped)
 
 void sum(uint list_first, uint end, bool clipped, bool lit)
 {
-    uint batch = clipped ? CLIPPED_BATCH : TILE_BATCH;
+    uint batch = CLIPS && clipped ? CLIPPED_BATCH : TILE_BATCH;
     Splat own;
     SplatAttributes own_attributes;
     uint base = list_first;
@@ -116,7 +116,7 @@ void sum(uint list_first, uint end, bool clipped, bool lit)
             find_kept(clipped, min(AT_ONCE, batch), own, splats, place + first, kept);
             [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
                 [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
-                    add(splats[k], attributes[k], columns[k], clipped || PLANES > 0 ? kept[k][row] : 1.0, row);
+                    add(splats[k], attributes[k], columns[k], clipped ? kept[k][row] : 1.0, row);
                 }
             }
         }
@@ -124,12 +124,19 @@ void sum(uint list_first, uint end, bool clipped, bool lit)
     } while (base < end);
 }
 
+// By planes alone, all splats of a tile are looked at as if they were cut: one body, of which a CPU driver's compiler takes half as long.
+const bool CUTS_ALL = CUTS && !CLIPS;
+
 void see(Range range)
 {
-    if (!CLIPS || range.first < range.clipped) {
+    if (CUTS_ALL) {
+        see(range.first, range.end, true);
+        return;
+    }
+    if (!CUTS || range.first < range.clipped) {
         see(range.first, range.clipped, false);
     }
-    if (CLIPS && range.clipped < range.end) {
+    if (CUTS && range.clipped < range.end) {
         see(range.clipped, range.end, true);
     }
 }
@@ -137,10 +144,14 @@ void see(Range range)
 // `lit`: each splat is lit by itself, at its center.
 void sum(Range range, bool lit)
 {
-    if (!CLIPS || range.first < range.clipped) {
+    if (CUTS_ALL) {
+        sum(range.first, range.end, true, lit);
+        return;
+    }
+    if (!CUTS || range.first < range.clipped) {
         sum(range.first, range.clipped, false, lit);
     }
-    if (CLIPS && range.clipped < range.end) {
+    if (CUTS && range.clipped < range.end) {
         sum(range.clipped, range.end, true, lit);
     }
 }

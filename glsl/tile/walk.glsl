@@ -14,7 +14,7 @@ layout(constant_id = SPEC_TEXELS) const bool TEXELS = false; // CPU drivers read
 layout(set = 0, binding = BIND_RECTS, std430) readonly buffer Rects { uint rects[]; };
 layout(set = 0, binding = BIND_RECT_TEXELS) uniform utextureBuffer rect_texels;
 
-// PARTED: the first quarter of records tells which are clipped (tile/splat.glsl), and their curves, in which cells they are cut (tile/cut.glsl).
+// PARTED: the first quarter of records tells which are cut (tile/splat.glsl), and CURVED: their curves, in which cells (tile/cut.glsl).
 layout(set = 0, binding = BIND_RECORDS, std430) readonly buffer Records0 { vec4 records0[]; };
 layout(set = 0, binding = BIND_RECORD_TEXELS) uniform textureBuffer record_texels0;
 layout(set = 0, binding = BIND_CLIPS, std430) readonly buffer ClipRecords { vec4 clip_records[]; };
@@ -38,6 +38,9 @@ uint cells_of_curve(uint record, uint number)
 uvec2 cells_of(uint record)
 {
     bool clipped = PARTED && (TEXELS ? texelFetch(record_texels0, int(record)).z : records0[record].z) < 0.0;
+    if (!CURVED) {
+        return uvec2(~0u, clipped ? ~0u : 0);
+    }
     return clipped ? uvec2(cells_of_curve(record, 0), cells_of_curve(record, 1)) : uvec2(~0u, 0);
 }
 

@@ -8,7 +8,7 @@ layout(set = 0, binding = BIND_OVERFLOW_TILES, std430) readonly buffer OverflowT
 layout(constant_id = SPEC_PART_LENGTH) const uint PART_LENGTH = 200000;
 layout(constant_id = SPEC_HALF_FLOATS) const bool HALF_FLOATS = false; // in images; in registers there are none
 
-// Entries of a list; CLIPS: from `clipped` on of splats that curves cut.
+// Entries of a list; CUTS: from `clipped` on of splats that curves or planes cut.
 struct Range {
     uint first;
     uint clipped;
@@ -31,17 +31,17 @@ void enter_tile(uint tile)
 }
 
 // Answers whether there is any work; all of a workgroup have the same. `whole`: this dispatch does whole tiles and leaves out overflow
-// tiles; CLIPS: those with clipped splats. Else it does the part push.part of overflow tiles.
+// tiles; CUTS: those with clipped splats. Else it does the part push.part of overflow tiles.
 bool find_work(bool whole, out Range range)
 {
-    if (GROUP_NUMBER >= starts[!whole ? STARTS_OVERFLOW : CLIPS ? STARTS_CLIPPED : STARTS_TILES]) {
+    if (GROUP_NUMBER >= starts[!whole ? STARTS_OVERFLOW : CUTS ? STARTS_CLIPPED : STARTS_TILES]) {
         return false;
     }
-    uint tile = whole ? non_empty_tiles[place_of_tile(CLIPS, GROUP_NUMBER)] : overflow_tiles[GROUP_NUMBER];
+    uint tile = whole ? non_empty_tiles[place_of_tile(CUTS, GROUP_NUMBER)] : overflow_tiles[GROUP_NUMBER];
     enter_tile(tile);
     uint bin = TILE_BINS * tile;
     uint end = starts[bin + TILE_BINS];
-    range = Range(starts[bin], CLIPS ? starts[bin + 1] : end, end);
+    range = Range(starts[bin], CUTS ? starts[bin + 1] : end, end);
     if (whole) {
         return range.end - range.first <= PART_LENGTH;
     }

@@ -23,12 +23,17 @@ impl Renderer {
         let frame = ViewFrame { missing: MissingPipelines::Make, profile: None, ..*frame };
         let mut view = View::new(self, rendering)?;
         let mut arena = Arena::new();
-        for size_px in Ahead::sizes_px(frame.settings.size_px) {
-            for ahead in Ahead::all(frame.scenes, frame.settings, &self.limits) {
-                let to = To::Pipelines(ahead, size_px);
-                // SAFETY: the view is new, nothing is recorded, and so the depth image not looked at.
-                unsafe { view.record_passes(&arena, self, to, &frame) }.map_err(as_fields)?;
-                arena.reset();
+        // Planes may leave all as it is, as if there were none.
+        let uncut = frame.settings.uncut();
+        let of_uncut = (uncut != *frame.settings).then_some(ViewFrame { settings: &uncut, ..frame });
+        for frame in [frame].iter().chain(&of_uncut) {
+            for size_px in Ahead::sizes_px(frame.settings.size_px) {
+                for ahead in Ahead::all(frame.scenes, frame.settings, &self.limits) {
+                    let to = To::Pipelines(ahead, size_px);
+                    // SAFETY: the view is new, nothing is recorded, and so the depth image not looked at.
+                    unsafe { view.record_passes(&arena, self, to, frame) }.map_err(as_fields)?;
+                    arena.reset();
+                }
             }
         }
         Ok(self.pipelines_made() - before)

@@ -126,7 +126,7 @@ impl ListOccupancy {
         // Behind those of tiles are those of chunks, which other passes read.
         let entries = word(starts, plan.first_chunk_bin().into());
         let [tiles, overflow, clipped] = [1, 2, 3].map(|place| word(starts, bins + place));
-        let tiles = if plan.clips { tiles + clipped } else { tiles };
+        let tiles = if plan.parted_by() != 0 { tiles + clipped } else { tiles };
         let runs: u64 = word(arguments, u64::from(ARGUMENTS_QUADS) + 1);
         let lists = [
             ("rects", 4 * set_up),

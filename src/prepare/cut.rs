@@ -23,13 +23,19 @@ use super::{
 use crate::{
     error::Result,
     geometry::Overlaps,
-    scene::{Clip, DefectCounts, Epsilon, Object, Opacity, Order, Room, Scene, SplatFormat},
+    scene::{Bounds, Clip, DefectCounts, Epsilon, Object, Opacity, Order, Room, Scene, SplatFormat},
     vk::Limits,
 };
 
 /// How many splats are packed and uploaded at once: 72 bytes each at most, 4.7 MB, so that neither the host nor the device holds a
 /// second copy of a scene on its way.
 const BATCH_SPLATS: usize = 1 << 16;
+
+/// The box around a scene that stays as it is. What came with its levels of detail has none.
+fn bounds_of(scene: &Scene) -> Option<Bounds> {
+    let changes = scene.updatable || scene.rooms.iter().any(Option::is_some);
+    scene.bounds().filter(|_| !changes && scene.leveled.is_empty())
+}
 
 /// Cuts a scene; uploads it where there is an uploader.
 ///
@@ -72,6 +78,7 @@ pub(super) fn cut(
             storage: scene.storage,
             mean_transparent_radius: 0.0,
             defects: DefectCounts::default(),
+            bounds: bounds_of(scene),
             changes: Default::default(),
             rooms: Vec::new(),
         },

@@ -162,6 +162,7 @@ impl PreparedScene {
             mean_transparent_radius: if splats.transparent { splats.largest_radius } else { 0.0 },
             refinements: Vec::new(),
             defects: DefectCounts::default(),
+            bounds: None,
             changes: Default::default(),
             rooms: Vec::new(),
         };

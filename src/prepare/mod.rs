@@ -58,7 +58,7 @@ pub(crate) use updatable::{Changes, RoomOf, Update};
 
 use crate::{
     error::{Error, Result},
-    scene::{DefectCounts, Light, Scene, Storage},
+    scene::{Bounds, DefectCounts, Light, Scene, Storage},
     vk::{Device, Limits, Staging},
 };
 
@@ -83,6 +83,8 @@ pub struct PreparedScene {
     pub refinements: Vec<Refinements>,
     /// The splats that were left out, in all objects together.
     pub defects: DefectCounts,
+    /// The box around all of it, where none of it changes and all of it is there.
+    pub(crate) bounds: Option<Bounds>,
     /// What changes of its splats are found with.
     pub(crate) changes: Changes,
     /// Of objects that have room for more splats, by their number.

@@ -91,8 +91,9 @@ pub fn ground_truth(
         filter_weight: FilterWeight::Unit,
         ..settings.clone()
     };
-    let view =
-        View::of(scene, camera, settings.size_px).cut_by(settings).sampled(taps.reach_px, samples_per_side);
+    let view = View::of(scene, camera, settings.size_px)
+        .cut_by(scene, settings)
+        .sampled(taps.reach_px, samples_per_side);
     let (splats, defects) = splat::prepare(scene, &view, &plain);
     let limit_r2 = limit_r2(settings.kernel);
     let field = Field {

@@ -25,7 +25,7 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> Triang
     let mut triangles = Triangles::default();
     for object in &scene.meshes {
         let opacity = object.mesh.colors.opacity();
-        let cull = culls(settings, object.closed, opacity);
+        let cull = culls((settings, !view.planes.is_empty()), object.closed, opacity);
         let usable = (0..object.mesh.triangles.len())
             .filter_map(|i| Some((object.mesh.triangles[i], prepare_one(object, i, view)?)));
         let usable: Vec<_> = usable.collect();

@@ -123,7 +123,13 @@ pub fn render(
     if settings.samples.0 > 1 {
         return samples::render(scene, camera, settings, progress);
     }
-    render_view(scene, View::of(scene, camera, settings.size_px).cut_by(settings), settings, true, progress)
+    render_view(
+        scene,
+        View::of(scene, camera, settings.size_px).cut_by(scene, settings),
+        settings,
+        true,
+        progress,
+    )
 }
 
 /// One sample of each pixel; `alone`: of no others.

@@ -36,7 +36,7 @@ impl<'a> Picker<'a> {
         camera.validate()?;
         settings.check_camera(camera)?;
         settings.check_scene(scene)?;
-        let view = View::of(scene, camera, settings.size_px).cut_by(settings);
+        let view = View::of(scene, camera, settings.size_px).cut_by(scene, settings);
         let (splats, _) = splat::prepare(scene, &view, settings);
         Ok(Self(frame(scene, view, settings, splats)))
     }

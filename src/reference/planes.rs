@@ -2,12 +2,12 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8, PI};
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{BVec3, DVec2, DVec3, DVec4};
 
 use super::drawn_clip::{Clipped, Kept};
 use super::splat::DrawnSplat;
 use super::view::View;
-use crate::scene::{MOST_PLANES, Settings};
+use crate::scene::{Bounds, MOST_PLANES, Scene, Settings};
 
 /// Planes in view space: unit normals toward what is left, and by how much the eye is on that side.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,13 +16,27 @@ pub(super) struct Planes {
     count: usize,
 }
 
+impl Planes {
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+}
+
 /// How near to a plane, in pixels, rounding leaves it open whether a place is cut off; and how near to nothing, as a part of a ramp, a part is so.
 const UNDECIDED: f64 = 0.01;
 
 impl View {
-    /// The same view of what planes leave.
-    pub fn cut_by(self, settings: &Settings) -> Self {
+    /// The same view of what planes leave of a scene. Where all corners of the box around it are on the inner side of all of them, it is as if there were none: nothing is cut
+    /// open then, nor is what a filter has widened beyond the box.
+    pub fn cut_by(self, scene: &Scene, settings: &Settings) -> Self {
         let mut planes = Planes::default();
+        let corners = |Bounds { min, max }: Bounds| {
+            (0..8).map(move |i| DVec3::select(BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), max, min))
+        };
+        let is_left = |at: DVec3| settings.clip().iter().all(|plane| plane.dot(at.extend(1.0)) >= 0.0);
+        if scene.bounds().is_some_and(|bounds| corners(bounds).all(is_left)) {
+            return Self { planes, ..self };
+        }
         for (own, plane) in planes.all.iter_mut().zip(settings.clip()) {
             let normal = plane.truncate();
             let of_eye = normal.dot(self.from_world.eye) + plane.w;

@@ -15,7 +15,7 @@ pub(super) fn render(
     let one = Settings { samples: Samples(1), ..settings.clone() };
     let mut picture = render_view(
         scene,
-        View::of(scene, camera, settings.size_px).cut_by(settings),
+        View::of(scene, camera, settings.size_px).cut_by(scene, settings),
         &one,
         false,
         progress,
@@ -24,7 +24,7 @@ pub(super) fn render(
     let count = offsets_px.len() as f64;
     let mut sums = vec![[0.0; 4]; picture.pixels.len()];
     for offset_px in offsets_px {
-        let view = View::of(scene, &camera.sample(offset_px), settings.size_px).cut_by(settings);
+        let view = View::of(scene, &camera.sample(offset_px), settings.size_px).cut_by(scene, settings);
         let view = View { filter_px: view.filter_px / count.sqrt(), ..view };
         let drawn = render_view(scene, view, &one, false, progress)?;
         for (sum, pixel) in sums.iter_mut().zip(&drawn.pixels) {

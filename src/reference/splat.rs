@@ -105,7 +105,7 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
     let reach = polygon_reach(scene, settings);
     for (number, object) in scene.objects.iter().enumerate() {
         let opacity = object.splats.colors.opacity();
-        let cull = culls(settings, object.closed, opacity);
+        let cull = culls((settings, !view.planes.is_empty()), object.closed, opacity);
         let overlaps = covers_in_part(scene, settings, opacity).then(|| match scene.meshes.is_empty() {
             true => overlaps(&object.splats, settings.kernel),
             // Where splats meet polygons, their sum is to fall toward their border.
@@ -134,10 +134,8 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
     (drawn, defects)
 }
 
-/// Whether what faces away is not drawn. Through a transparent surface its far side is seen.
-pub(super) fn culls(settings: &Settings, closed: bool, opacity: Opacity) -> bool {
-    // Through a cut its inside is seen.
-    let is_cut_open = settings.clip_box.0.is_some() || !settings.clip_planes.0.is_empty();
+/// Whether what faces away is not drawn. Through a transparent surface its far side is seen, and through a cut its inside.
+pub(super) fn culls((settings, is_cut_open): (&Settings, bool), closed: bool, opacity: Opacity) -> bool {
     match settings.backfaces {
         Backfaces::Auto => closed && opacity == Opacity::Opaque && !is_cut_open,
         Backfaces::Flip => false,

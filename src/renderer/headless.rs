@@ -151,6 +151,17 @@ impl Headless {
         self.slot.frame_bytes()
     }
 
+    /// Gives back all that frames were drawn in and read through, for hosts that render nothing for a while: it is as much as the last frame has needed. The next frame makes its own anew.
+    ///
+    /// # Errors
+    /// Whatever the driver answers, such as a lost device.
+    pub fn forget_frames(&mut self) -> Result<()> {
+        self.queue.wait_submitted()?;
+        self.slot = FrameSlot::new(&self.device);
+        (self.targets, self.parts) = (None, None);
+        Ok(())
+    }
+
     /// Refuses a renderer of another device, which nobody is kept from putting in the place of this one's.
     pub(super) fn check_renderer(&self) -> Result<()> {
         match self.renderer.device().is(&self.device) {

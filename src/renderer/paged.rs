@@ -64,6 +64,7 @@ impl PagedScene {
             mean_transparent_radius: 0.0,
             refinements: Vec::new(),
             defects: Default::default(),
+            bounds: None,
             changes: Default::default(),
             rooms: Vec::new(),
         };

@@ -136,6 +136,11 @@ impl Settings {
         self.clip_box.planes().chain(self.clip_planes.planes()).take(MOST_PLANES).collect()
     }
 
+    /// The same without planes that cut.
+    pub(crate) fn uncut(&self) -> Self {
+        Self { clip_box: ClipBox::default(), clip_planes: ClipPlanes::default(), ..self.clone() }
+    }
+
     /// Whether what faces away is not drawn of an object that is closed and opaque, or is not so. What is cut open is seen from inside.
     pub fn culls(&self, closed: bool) -> bool {
         match self.backfaces {

@@ -8,6 +8,8 @@ use std::sync::{
 use ash::vk;
 
 use super::{commands::CommandPool, device::Device, garbage::Retired, result::VkResultExt};
+#[cfg(feature = "view")]
+use super::{semaphore::Semaphore, swapchain::SwapchainImage};
 use crate::error::{Error, Result};
 
 /// The one queue of an owned device. An embedding host has its own and needs none of this.
@@ -93,20 +95,32 @@ impl Queue {
         unsafe { self.submit_with(commands, &[], None) }
     }
 
-    /// Records that all is done which validation was told to be, before other commands that draw to an image of a window. Layers of 1.3.239
-    /// take from an image that is acquired again what its submission before has accessed, even where the queue was idle since and others
-    /// have that memory now; and they would hand it on from image to image. Records nothing where there is nothing to tell.
+    /// Before anything is recorded that draws to an image of a window: waits until it is free, where validation was told since it was drawn to last that all is done. Layers of 1.3.239
+    /// take from an image that is acquired again what its submission before has accessed, even where the queue was idle since and others have that memory now. A barrier over all does
+    /// not end that, for they take what follows for unsafe where it names no access; an idle queue does. Nothing without validation.
     ///
     /// # Safety
-    /// `commands` is recording outside of rendering, and is submitted by [`Queue::submit_for_window`] with this image.
+    /// As [`Queue::submit_for_window`], which comes next for this image.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
     #[cfg(feature = "view")]
-    pub unsafe fn tell_done(&self, commands: vk::CommandBuffer, image: &super::SwapchainImage) {
+    pub unsafe fn tell_acquired(&self, acquired: &Semaphore, image: &SwapchainImage) -> Result<()> {
         let before = image.epoch.load(Ordering::Acquire);
         if before == 0 || before > self.told.load(Ordering::Acquire) {
-            return;
+            return Ok(());
         }
-        // SAFETY: this function's contract.
-        unsafe { wait_for_all(&self.device, commands) };
+        let waits = [acquired.before_colors()];
+        let info = [vk::SubmitInfo2::default().wait_semaphore_infos(&waits)];
+        let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: this function's contract; the lock synchronizes the queue.
+        unsafe { self.device.raw().queue_submit2(*queue, &info, vk::Fence::null()) }
+            .of_call("vkQueueSubmit2", "queue")?;
+        image.is_waited_for.store(true, Ordering::Release);
+        // SAFETY: as above.
+        unsafe { self.device.raw().queue_wait_idle(*queue) }.of_call("vkQueueWaitIdle", "queue")?;
+        self.told.store(self.submitted.load(Ordering::Acquire), Ordering::Release);
+        Ok(())
     }
 
     /// Submits between the acquisition of a window's image and its presentation: colors are written once `acquired` is signaled, and
@@ -122,14 +136,13 @@ impl Queue {
     pub unsafe fn submit_for_window(
         &self,
         commands: vk::CommandBuffer,
-        acquired: &super::Semaphore,
-        image: &super::SwapchainImage,
+        acquired: &Semaphore,
+        image: &SwapchainImage,
     ) -> Result<u64> {
-        let waits = [vk::SemaphoreSubmitInfo::default()
-            .semaphore(acquired.raw())
-            .stage_mask(vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT)];
+        let waits = [acquired.before_colors()];
+        let waits = if image.is_waited_for.swap(false, Ordering::AcqRel) { &[][..] } else { &waits[..] };
         // SAFETY: this function's contract.
-        let epoch = unsafe { self.submit_with(commands, &waits, Some(image.drawn.raw())) }?;
+        let epoch = unsafe { self.submit_with(commands, waits, Some(image.drawn.raw())) }?;
         image.epoch.store(epoch, Ordering::Release);
         Ok(epoch)
     }

@@ -20,6 +20,13 @@ impl Semaphore {
         Ok(Self(device.own(raw, name, Retired::Semaphore)))
     }
 
+    /// What colors of a window's image wait for; before they are drawn nothing touches it.
+    #[cfg(feature = "view")]
+    pub(super) fn before_colors(&self) -> vk::SemaphoreSubmitInfo<'static> {
+        let colors = vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT;
+        vk::SemaphoreSubmitInfo::default().semaphore(self.raw()).stage_mask(colors)
+    }
+
     pub(super) fn raw(&self) -> vk::Semaphore {
         self.0.raw
     }

@@ -1,6 +1,6 @@
 //! Swapchains: the images that a window shows in turn.
 
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicBool, AtomicU64};
 
 use ash::{khr, vk};
 
@@ -35,6 +35,8 @@ pub struct SwapchainImage {
     pub drawn: Semaphore,
     /// The submission that drew to it last; 0 before the first.
     pub(super) epoch: AtomicU64,
+    /// It is acquired, and the queue has waited for that already.
+    pub(super) is_waited_for: AtomicBool,
 }
 
 /// What a call to acquire or to present an image came to.
@@ -131,7 +133,13 @@ impl Swapchain {
             let drawn = Semaphore::new(&self.device, &format!("{name} is drawn"))?;
             // SAFETY: the image is alive as long as the swapchain, which goes after the view.
             let view = unsafe { color_view(&self.device, image, self.format, &name) }?;
-            self.images.push(SwapchainImage { image, view, drawn, epoch: AtomicU64::new(0) });
+            self.images.push(SwapchainImage {
+                image,
+                view,
+                drawn,
+                epoch: AtomicU64::new(0),
+                is_waited_for: AtomicBool::new(false),
+            });
         }
         Ok(())
     }

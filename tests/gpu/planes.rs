@@ -200,6 +200,8 @@ fn what_is_wholly_cut_off_is_not_listed_and_nothing_is_left_of_all() {
             let settings = Settings {
                 rasterizer,
                 cull: Cull::List,
+                // A plane that cuts nothing has no backs drawn that another may.
+                backfaces: Backfaces::Flip,
                 clip_planes: ClipPlanes([plane].into()),
                 ..sphere.settings.clone()
             };
@@ -259,5 +261,49 @@ fn planes_far_from_the_origin_and_none_at_all() {
         let boxed = with(&plain, |settings| settings.clip_box = whole);
         let [plain, boxed] = [plain, boxed].map(|hard| render(&mut headless, &hard));
         crate::common::assert_same_bits(&plain, &boxed, "a box around all");
+    }
+}
+
+#[test]
+fn planes_that_meet_nothing_leave_the_frame_as_it_is_and_its_backs_undrawn() {
+    let mut headless = shared();
+    let settings = Settings { backfaces: Backfaces::Auto, background: None, ..Settings::default() };
+    let of = |hard: Hard| {
+        let mut hard =
+            Hard { settings: Settings { size_px: hard.settings.size_px, ..settings.clone() }, ..hard };
+        hard.scene.objects.iter_mut().for_each(|object| object.closed = true);
+        hard.scene.meshes.iter_mut().for_each(|object| object.closed = true);
+        hard
+    };
+    for hard in [scenes::sphere_of_disks(), scenes::clipped(), transparent::hybrid(Transition::Color)].map(of)
+    {
+        let bounds = hard.scene.bounds().unwrap();
+        let boxed = |by: f64| ClipBox(Some([(bounds.min - by).to_array(), (bounds.max + by).to_array()]));
+        for (rasterizer, edges) in [
+            (Rasterizer::Compute, Edges::Coverage),
+            (Rasterizer::Compute, Edges::Hard),
+            (Rasterizer::Perspective, Edges::Hard),
+        ] {
+            let render = |headless: &mut Headless, clip_box| {
+                let hard = with(&hard, |settings| {
+                    (settings.rasterizer, settings.edges) = (rasterizer, edges);
+                    settings.clip_box = clip_box;
+                });
+                (render_as(headless, &hard, PICTURE), hard)
+            };
+            let (plain, _) = render(&mut headless, ClipBox::default());
+            let made = headless.renderer.pipelines_made();
+            let (around, around_all) = render(&mut headless, boxed(1e-9));
+            let name = &hard.name;
+            assert_eq!(headless.renderer.pipelines_made(), made, "{name}, {rasterizer:?}, {edges:?}");
+            assert_eq!(plain.linear, around.linear, "{name}, {rasterizer:?}, {edges:?}");
+            let oracle = oracle_of(&around_all);
+            let [mean, beyond] = errors(&around.linear, oracle.pixels.iter().map(|pixel| pixel.color));
+            println!("{name}, {rasterizer:?}, {edges:?}: mean {mean:.1e}, {:.2}%", 100.0 * beyond);
+            assert!(mean < 2e-4 && beyond < 8e-3, "{name}: {mean:e}, {beyond}");
+            // A box that is smaller cuts, and has its own pipelines.
+            let (cut, _) = render(&mut headless, boxed(-0.2));
+            assert!(headless.renderer.pipelines_made() > made && cut.linear != plain.linear, "{name}");
+        }
     }
 }

@@ -1,19 +1,11 @@
-//! What leaves the window: pictures to files, cameras to the clipboard.
+//! What leaves the window as words: cameras, to the clipboard.
 
 use std::path::PathBuf;
 
-use surfel::{
-    Result,
-    renderer::Wanted,
-    scene::{Camera, Settings},
-};
+use surfel::scene::Camera;
 
-use super::{cuts, keys::CopiedAs, on_device::OnDevice, viewer::Viewer};
-use crate::{
-    camera,
-    outputs::PictureFormat,
-    pictures::{self, Colors},
-};
+use super::{cuts, keys::CopiedAs, viewer::Viewer};
+use crate::camera;
 
 /// The clipboard, opened when it is first needed; under X11 what is copied is gone with it.
 #[derive(Default)]
@@ -106,48 +98,6 @@ impl Viewer {
             self.tell(&error.to_string());
         }
         self.window.request_redraw();
-    }
-
-    /// Writes the picture to a file of its own in the current folder.
-    pub fn write_picture(&mut self) {
-        let path = free_name("surfel", "png");
-        match self.picture_to(path.clone()) {
-            // The standard error has heard of it.
-            Ok(true) => self.ui.tell(&format!("{} is written", path.display())),
-            Ok(false) => {}
-            Err(error) => self.tell(&error.to_string()),
-        }
-    }
-
-    /// Whether there was anything to write.
-    fn picture_to(&mut self, path: PathBuf) -> Result<bool> {
-        let size_px = self.options.picture_size.unwrap_or(self.window_px());
-        let background = self.settings.background;
-        let is_plain = self.encoding.is_plain();
-        let settings = self.at_rest(&Settings { size_px, ..self.settings.clone() });
-        let settings = Settings { samples: self.samples_of(&settings), ..settings };
-        let (Some(camera), Some(prepared)) = (self.camera(), &mut self.prepared) else { return Ok(false) };
-        let settings = match prepared {
-            OnDevice::Whole(..) => settings,
-            OnDevice::Paged(paged) => {
-                self.scene_number += 1;
-                match paged.wait_for(&self.gpu.headless, &camera, &settings)? {
-                    Some(settings) => settings,
-                    None => return Ok(false),
-                }
-            }
-        };
-        // A curve is of what is drawn alone; the background is put under it after that.
-        let settings = Settings { background: background.filter(|_| is_plain), ..settings };
-        let wanted = Wanted { picture: true, linear: !is_plain, ..Wanted::default() };
-        let frame = self.gpu.headless.render(prepared.scene(), &camera, &settings, wanted)?;
-        let bytes = match is_plain {
-            true => frame.srgb,
-            false => pictures::encode_shown(&self.encoding, &frame.linear, background),
-        };
-        let colors = Colors::Srgb(&bytes);
-        pictures::write_picture(&path, PictureFormat::Png, frame.size_px, background.is_none(), colors)?;
-        Ok(true)
     }
 }
 

@@ -153,10 +153,10 @@ impl Gpu {
             slot.collect(|epoch| queue.is_done(epoch))?;
         }
         let begun = Instant::now();
+        // SAFETY: acquired just now; submitted with this image below, or by `show_nothing`.
+        unsafe { queue.tell_acquired(&frame.acquired, image) }?;
         // SAFETY: the frame's submission before was waited for.
         let commands = unsafe { frame.commands.begin() }?;
-        // SAFETY: recording; submitted with this image below.
-        unsafe { queue.tell_done(commands, image) };
         let made = self.headless.renderer.shaders().made();
         let mut compiles = false;
         let mut steps = Vec::new();
@@ -255,7 +255,6 @@ impl Gpu {
         let commands = unsafe { frame.commands.begin() }?;
         // SAFETY: recording; the image is acquired, and submitted below.
         unsafe {
-            queue.tell_done(commands, image);
             begin_rendering(device, commands, image, swapchain.extent());
             end_rendering(device, commands, image);
         }

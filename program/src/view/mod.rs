@@ -45,11 +45,13 @@ mod show;
 mod state;
 mod steps;
 mod things;
+mod tidy;
 mod told;
 mod ui;
 mod values;
 mod viewer;
 mod warm;
+mod writing;
 
 use std::path::PathBuf;
 

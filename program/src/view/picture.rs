@@ -239,6 +239,18 @@ impl Picture {
         self.slots.iter_mut().for_each(|slot| slot.slot.give_back_excess());
     }
 
+    /// Gives back all that frames are drawn in, and the image, but where it is shown. What frames have cost stays to be taken.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn forget_frames(&mut self, device: &Device, is_shown: bool) -> Result<()> {
+        self.collect(|_| Ok(true))?;
+        let costs = self.take_costs();
+        let (image, is_drawn) = (self.image.take().filter(|_| is_shown), self.is_drawn && is_shown);
+        *self = Self { image, is_drawn, costs, ..Self::new(device) };
+        Ok(())
+    }
+
     /// What is drawn in steps begins anew, if it is drawn at all.
     pub fn stop(&mut self) {
         (self.under_way, self.making) = (None, None);

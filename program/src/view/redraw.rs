@@ -18,6 +18,7 @@ use super::{
     picture::Use,
     printed,
     show::{ShowDesc, Shown},
+    tidy::Tidies,
     told::Step,
     viewer::Viewer,
 };
@@ -27,8 +28,6 @@ use crate::console;
 const COST: Duration = Duration::from_millis(10);
 /// How soon pages are looked for again.
 const PAGES: Duration = Duration::from_millis(15);
-/// Memory is given back once nothing was drawn for so long.
-const TIDY: Duration = Duration::from_millis(500);
 
 impl Viewer {
     /// When there is something to do without an event.
@@ -36,7 +35,8 @@ impl Viewer {
         let rest = self.moved.filter(|_| !self.anchor.waits()).map(|moved| moved + self.pace.rest());
         let refines = self.refines.filter(|_| self.moved.is_none());
         let step = self.steps.as_ref().map(|steps| steps.next_look);
-        let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies, step];
+        let sample = self.next_sample(now);
+        let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies.next(), step, sample];
         let all = [rest, self.anchor.next_look(now), self.files.next_look(), self.ui.next_wake()]
             .into_iter()
             .chain(looks);
@@ -52,22 +52,11 @@ impl Viewer {
             self.window.request_redraw();
         }
         let rests = !self.anchor.waits() && self.moved.is_some_and(|moved| now >= moved + self.pace.rest());
-        let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
-        if is_due(self.tidies) {
-            // As above.
-            let rests = self.moved.is_none() && self.steps.is_none() && self.gpu.is_idle().unwrap_or(true);
-            self.tidies = (!rests).then(|| now + TIDY);
-            if rests {
-                let _ = self.gpu.tidy(self.comparing.is_some());
-                if self.options.prints_frames {
-                    let _ = console::print(&printed::at_rest(self.gpu.headless.device()));
-                }
-                if self.ui.shows_times() && self.splats_drawn.is_none() && !self.is_stale {
-                    let _ = self.count_drawn();
-                }
-                self.look_under_cursor();
-            }
+        self.tidy(now);
+        if self.next_sample(now).is_some() {
+            self.write_on();
         }
+        let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
         let pages = self.prepared.as_ref().and_then(OnDevice::pages);
         let pages_are_there = is_due(self.looks_for_pages) && pages.is_none_or(Paged::has_arrived);
         if is_due(self.looks_for_pages) {
@@ -122,7 +111,7 @@ impl Viewer {
             }
             drawn => drawn?,
         };
-        self.tidies = Some(now + TIDY);
+        self.tidies = Tidies::after(now);
         match drawn {
             Drawn::Hidden => {}
             Drawn::Again => {

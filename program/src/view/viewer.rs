@@ -12,7 +12,8 @@ use winit::window::Window;
 use super::{
     ViewArguments, anchor::Anchor, capture::Clipboard, document::Document, edits::Edits, files::Files,
     gpu::Gpu, input::Input, keys::Comparing, loading::Loader, navigation::Navigation, on_device::OnDevice,
-    options::Options, pace::Pace, path::Path, picture::Use, steps::Steps, ui::Ui, warm,
+    options::Options, pace::Pace, path::Path, picture::Use, steps::Steps, tidy::Tidies, ui::Ui, warm,
+    writing::Writing,
 };
 use crate::console;
 
@@ -71,6 +72,8 @@ pub struct Viewer {
     pub is_unsure: bool,
     /// Pictures that are drawn in steps.
     pub steps: Option<Steps>,
+    /// A picture that is being written.
+    pub writing: Option<Writing>,
     /// Counts the changes of what is on the device.
     pub scene_number: u64,
     /// The picture that is shown.
@@ -86,7 +89,7 @@ pub struct Viewer {
     /// When the costs of frames are looked for.
     pub looks_for_costs: Option<Instant>,
     /// When memory is given back, if nothing is to be drawn by then.
-    pub tidies: Option<Instant>,
+    pub tidies: Tidies,
     /// When pages are looked for that are to come.
     pub looks_for_pages: Option<Instant>,
     /// The program is to end.
@@ -152,8 +155,9 @@ impl Viewer {
             refines: None,
             looks_for_costs: None,
             looks_for_pages: None,
-            tidies: None,
+            tidies: Tidies::default(),
             steps: None,
+            writing: None,
             scene_number: 0,
             shown: Use::Still,
             ends: false,
@@ -190,7 +194,8 @@ impl Viewer {
     }
 
     /// Closes the window; keeps what was compiled.
-    pub fn close(self) {
+    pub fn close(mut self) {
+        self.finish_writing();
         let Self { gpu, loader, prepared, warm, .. } = self;
         drop(loader);
         drop((prepared, warm));

@@ -13,11 +13,17 @@ use super::{
     window::{Folder, View},
 };
 
-/// What is in use of the program's own memory, and of the device's, may grow by so much in ten minutes.
-const MOST_GROWTH_BYTES: [u64; 2] = [1_000_000, 4_000_000];
+/// What is in use of the program's own memory, and of the device's, may grow by so much in ten minutes. What a driver and a layer take for themselves is in neither, and is told as what is
+/// resident. Counted call by call, with `malloc` and `operator new` replaced and each piece put down to the library that asks for it: from minute to minute the layer (1.3.239) has 4 to 34 MB
+/// more, nearly all of it states of what accesses what, and the driver no more than its shaders of the pipelines that are kept. By resizes alone, of which each makes a swapchain, the layer
+/// grew by 3.7, 9.7 and 15.9 MB in each hundred of them, and by less than 0.1 MB in as many drags, or settings once their pipelines are there, while program and driver had no more.
+const MOST_GROWTH_BYTES: [u64; 2] = [1_000_000, 1_000_000];
 
 /// In a minute, in which not each setting has been seen before.
-const MOST_GROWTH_OF_A_MINUTE_BYTES: [u64; 2] = [2_000_000, 16_000_000];
+const MOST_GROWTH_OF_A_MINUTE_BYTES: [u64; 2] = [2_000_000, 1_000_000];
+
+/// A window that has rested for longer has given back all but the scene and what it shows.
+const IDLE: Duration = Duration::from_secs(7);
 
 /// The first size, all settings and the first camera again.
 fn go_back(screen: &Screen, view: &mut View<'_>) {
@@ -45,7 +51,8 @@ fn see_all(screen: &Screen, view: &mut View<'_>) {
 
 fn open<'a>(screen: &'a Screen, folder: &'a Folder, is_validated: bool) -> View<'a> {
     folder.splats("a.ply", 20_000);
-    let words = [&["a.ply", "--size", "320x240", "--print-frames"], &CAMERA[..]].concat();
+    let size = ["--size", "320x240", "--picture-size", "2000x1500"];
+    let words = [&["a.ply", "--print-frames"], &size[..], &CAMERA[..]].concat();
     let mut view = View::open_as(screen, folder, &words, is_validated);
     view.wait_until("something is shown", |shot| shot.colors() > 20);
     view
@@ -54,7 +61,7 @@ fn open<'a>(screen: &'a Screen, folder: &'a Folder, is_validated: bool) -> View<
 /// What was in use when it rested last, as it printed it: bytes of the program's own, bytes of the device's, and how many pieces these are.
 type Used = [u64; 3];
 
-/// Goes back, and waits until the window has rested for some seconds: keys may still be on their way when it first does.
+/// Goes back, and waits until the window has rested for long: keys may still be on their way when it first does.
 fn back_at_rest(screen: &Screen, view: &mut View<'_>) -> Used {
     let rests = |view: &View<'_>| -> Vec<String> {
         view.printed().lines().filter_map(|line| line.strip_prefix("at rest: ")).map(str::to_owned).collect()
@@ -63,7 +70,7 @@ fn back_at_rest(screen: &Screen, view: &mut View<'_>) -> Used {
     go_back(screen, view);
     let begun = Instant::now();
     let (mut seen, mut since) = (before, Instant::now());
-    while seen == before || since.elapsed() < Duration::from_secs(3) {
+    while seen == before || since.elapsed() < IDLE {
         assert!(begun.elapsed() < Duration::from_secs(60), "the window does not rest");
         thread::sleep(Duration::from_millis(200));
         let count = rests(view).len();
@@ -83,8 +90,7 @@ fn resident_mb(view: &View<'_>) -> f64 {
     line.trim().trim_end_matches(" kB").parse::<f64>().unwrap() * 1024e-6
 }
 
-/// What is in use after each of some turns has not grown. How much room lists have on the device differs from turn to turn, up to twice, so that the least of each half is
-/// compared, which a leak raises, and pieces are counted.
+/// What is in use after each of some turns has not grown: the least of each half is compared, which a leak raises, and pieces are counted.
 fn assert_constant(used: &[Used], most_growth_bytes: [u64; 2]) {
     println!("in use, bytes of its own, of the device's, and pieces: {used:?}");
     let (first, second) = used.split_at(used.len() / 2);
@@ -105,6 +111,19 @@ fn random_input_leaves_no_more_memory_in_use() {
         back_at_rest(&screen, &mut view)
     };
     assert_constant(&[15, 10, 10, 10].map(&mut turn), MOST_GROWTH_OF_A_MINUTE_BYTES);
+    view.end();
+}
+
+#[test]
+fn a_picture_larger_than_the_window_leaves_no_memory_in_use() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    let mut view = open(&screen, &folder, true);
+    let before = back_at_rest(&screen, &mut view);
+    screen.key("i");
+    assert_eq!(view.wait_for_file("surfel-001.png").size, [2000, 1500]);
+    let after = back_at_rest(&screen, &mut view);
+    // Of the device's, the picture alone has 12 MB to be read from.
+    assert!(after[1] <= before[1] + 1_000_000 && after[2] <= before[2] + 2, "{before:?}, {after:?}");
     view.end();
 }
 
@@ -132,6 +151,9 @@ fn play(is_validated: bool, keys: &str) -> f64 {
     }
     println!("resident at first and after each minute, MB: {resident:.1?}");
     let said = view.end();
+    let secs = |line: &str| line.split_once(" ms on the device")?.0.rsplit(' ').next()?.parse::<f64>().ok();
+    let long = said.stdout.lines().filter(|line| secs(line).is_some_and(|ms| ms > 300.0));
+    long.for_each(|line| println!("{line}"));
     let sorted = |from: &str, to: &str| {
         let of = |line: &str| line.split_once(from)?.1.split_once(to)?.0.parse::<f64>().ok();
         let mut all: Vec<f64> = said.stdout.lines().filter_map(of).collect();

@@ -92,3 +92,29 @@ fn pipelines_have_run_before_the_first_file_is_read() {
     assert_eq!(frames(&view.printed(), printed)[0], "whole");
     view.end();
 }
+
+/// A picture of many samples that is larger than the window takes seconds. What is asked for meanwhile is drawn before it is written, and it is the picture that was asked for.
+#[test]
+fn the_window_goes_on_while_a_picture_is_written() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 20_000);
+    let words = [&["a.ply", "--samples", "16"], &CAMERA[..]].concat();
+    let of_window = ["--size", "320x240", "--picture-size", "1600x1200", "--print-frames"];
+    let mut view = View::open_as(&screen, &folder, &[&words[..], &of_window].concat(), true);
+    view.wait_for(&render(&folder, &[&words[..], &["--size", "320x240"]].concat()));
+    let since = view.printed().len();
+    screen.key("i");
+    screen.key("1");
+    view.wait("another view is drawn", |view| frames(&view.printed(), since).contains(&"whole"));
+    assert!(!folder.path("surfel-001.png").exists(), "the window has waited for the picture");
+    // Once more is refused until it is there.
+    screen.key("i");
+    let written = view.wait_for_file("surfel-001.png");
+    let expected = render(&folder, &[&words[..], &["--size", "1600x1200"]].concat());
+    assert_eq!(written.differs_from(&expected), 0);
+    assert!(!folder.path("surfel-002.png").exists());
+    // What is under way when the window is closed is written, too.
+    screen.key("i");
+    view.end();
+    assert!(folder.path("surfel-002.png").exists());
+}

@@ -9,7 +9,7 @@ use crate::passes::plan::{
     budget::within_budget,
     draws::{Draw, draws, with_hard_steps, without_levels},
     mesh_draws::{MeshDraw, mesh_draws},
-    planes::{ShaderPlane, shader_planes},
+    planes::{ShaderPlane, if_they_cut, shader_planes},
     range::DepthRange,
 };
 use crate::{
@@ -75,6 +75,7 @@ impl<'a> PickPlan<'a> {
         // Sizes are of the picture, not of the pixel.
         let arena = &Arena::new();
         let settings = within_budget(arena, &[Placed::at_home(scene)], camera, settings);
+        let settings = if_they_cut(&[Placed::at_home(scene)], &settings);
         let lod = Lod::Px(settings.tau_px());
         let window = Window {
             whole_px: Some(camera.window.whole_px.unwrap_or(settings.size_px)),

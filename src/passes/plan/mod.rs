@@ -28,6 +28,8 @@ pub(crate) mod sums;
 pub(crate) mod tiles;
 pub(crate) mod words;
 
+use std::borrow::Cow;
+
 use crate::passes::plan::{
     ahead::Ahead,
     bands::Band,
@@ -122,6 +124,10 @@ impl<'a> FramePlan<'a> {
         let settings = &*match ahead {
             None => budget::within_budget(arena, scenes, camera, settings),
             Some(ahead) => ahead.settings(settings),
+        };
+        let settings = &*match ahead {
+            None => planes::if_they_cut(scenes, settings),
+            Some(_) => Cow::Borrowed(settings),
         };
         let range = DepthRange::of(scenes, camera);
         let camera = &range.begin(camera);

@@ -1,19 +1,43 @@
 //! The planes that cut what is seen, as a camera sees them. Their number is a specialization constant; the host writes them into a buffer of the frame's slot, and
 //! pipelines that know them find it in every set (`passes/recording.rs`). What is wholly cut off is not listed. By tiles with `--edges coverage` the cut is the edge
-//! of a surface, low-passed (`glsl/tile/clip.glsl`).
+//! of a surface, low-passed (`glsl/tile/clip.glsl`). Where no plane meets a scene the frame is as it would be without.
+
+use std::borrow::Cow;
 
 use glam::DVec4;
 
 use crate::{
     inline_vec::InlineVec,
     passes::plan::range::DepthRange,
-    scene::{Camera, MOST_PLANES, Settings},
+    prepare::Placed,
+    scene::{Bounds, Camera, MOST_PLANES, Settings},
 };
 
 /// A plane as `glsl/inc/planes.glsl` has it.
 pub type ShaderPlane = [f32; 4];
 
 const _: () = assert!(MOST_PLANES == crate::shaders::config::MOST_PLANES as usize);
+
+/// The settings without planes, where none cuts anything of what is shown: all of it is then drawn as it is, and what is closed is not open. A box around all tells, so that it
+/// does not depend on the camera.
+pub(crate) fn if_they_cut<'s>(scenes: &[Placed<'_>], settings: &'s Settings) -> Cow<'s, Settings> {
+    let planes = settings.clip();
+    let is_left = |placed: &Placed<'_>| {
+        let bounds = placed.scene.bounds;
+        bounds.is_some_and(|bounds| planes.iter().all(|plane| is_inside(&bounds, placed.at.plane(*plane))))
+    };
+    match !planes.is_empty() && scenes.iter().all(is_left) {
+        true => Cow::Owned(settings.uncut()),
+        false => Cow::Borrowed(settings),
+    }
+}
+
+/// Whether a plane leaves all of a box.
+fn is_inside(bounds: &Bounds, plane: DVec4) -> bool {
+    let half = 0.5 * (bounds.max - bounds.min);
+    let normal = plane.truncate();
+    normal.dot(bounds.center()) + plane.w >= normal.abs().dot(half)
+}
 
 /// Planes as a camera sees them, whose depth begins where it is ([`DepthRange::begin`]).
 pub(crate) fn shader_planes(

@@ -93,6 +93,8 @@ pub struct TilePlan {
     pub blended: bool,
     /// Clip curves cut something off some splats.
     pub clips: bool,
+    /// Planes may.
+    pub planes: bool,
     /// Polygons beside them cover pixels in part.
     pub samples_polygons: bool,
     /// What they draw, and how they come by splats.
@@ -205,13 +207,14 @@ impl TilePlan {
             blended: false,
             samples_polygons: false,
             clips: false,
+            planes: false,
             invocations,
         })
     }
 
-    /// The plan for splats of which clip curves cut off something; none where these have no room.
-    fn with_clips(self, limits: &Limits) -> Option<Self> {
-        let plan = Self { clips: true, ..self };
+    /// The plan for splats of which clip curves or planes cut off something; none where the curves have no room.
+    fn cut_by(self, clips: bool, planes: bool, limits: &Limits) -> Option<Self> {
+        let plan = Self { clips, planes, ..self };
         let texels = plan.clip_bytes() / RECORD_BYTES;
         let fit = plan.clip_bytes().max(plan.count_bytes()) <= limits.max_storage_buffer_range
             && (!plan.invocations.fetch_texels() || texels <= limits.max_texels.into());
@@ -235,9 +238,14 @@ impl TilePlan {
         self.first_chunk_bin() + self.chunk_count
     }
 
-    /// The bins of tiles: where some splats are clipped, two each.
+    /// What cuts some splats, as shaders are told: then each tile has a list of these apart from that of others.
+    pub(crate) fn parted_by(&self) -> u32 {
+        u32::from(self.clips) * PARTED_CURVES + u32::from(self.planes) * PARTED_PLANES
+    }
+
+    /// The bins of tiles: where something cuts some splats, two each.
     pub fn first_chunk_bin(&self) -> u32 {
-        if self.clips { 2 * self.tile_count } else { self.tile_count }
+        if self.parted_by() != 0 { 2 * self.tile_count } else { self.tile_count }
     }
 
     /// A tile's pixels along both sides.

@@ -31,7 +31,7 @@ fn walk_key(shaders: [&'static Shader; 2], plan: &TilePlan, listed: bool) -> Com
         (SPEC_LISTED, u32::from(listed)),
         (SPEC_TEXELS, u32::from(plan.invocations.fetch_texels())),
         (SPEC_MAY_BE_LARGE, u32::from(plan.may_be_large)),
-        (SPEC_PARTED, u32::from(plan.clips)),
+        (SPEC_PARTED, plan.parted_by()),
     ];
     key(plan.invocations.shader(shaders), constants.into())
 }
@@ -89,7 +89,7 @@ pub(crate) fn list<'a>(
         .write(at(BIND_RUNS), &mut tiles.runs, write, Start::Discard)
         .write(at(BIND_ARGUMENTS), &mut tiles.arguments, write, Start::Discard)
         .write(at(BIND_OVERFLOW_TILES), &mut tiles.overflow, write, Start::Discard);
-    let start = [(SPEC_PART_LENGTH, plan.part_length), (SPEC_PARTED, u32::from(plan.clips))].into();
+    let start = [(SPEC_PART_LENGTH, plan.part_length), (SPEC_PARTED, plan.parted_by())].into();
     let start = key(&shaders::TILE_START_COMP, start);
     finish(pass, inputs, (plan, start), |pass| pass.groups(pass.constants, 1))?;
 

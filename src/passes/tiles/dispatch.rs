@@ -20,15 +20,18 @@ use crate::{
     shaders::{Shader, config::*},
 };
 
-/// Of a pipeline that cuts splats by curves.
-const CLIPS: (u32, u32) = (SPEC_CLIPS, 1);
+/// Of a pipeline that cuts splats, by curves or planes.
+pub(crate) const CUTS: (u32, u32) = (SPEC_CUTS, 1);
+
+/// Of one that cuts them by curves.
+pub(crate) const CLIPS: (u32, u32) = (SPEC_CLIPS, 1);
 
 /// The pipeline of a shader in the layout of tiles.
 pub(crate) fn key(shader: &'static Shader, constants: Constants) -> ComputeKey {
     ComputeKey { shader, layout: Layout::Tile, constants }
 }
 
-/// Declares a pass over the tiles of a plan; `body` records its dispatches. Where the pipeline cuts splats by curves there is one more,
+/// Declares a pass over the tiles of a plan; `body` records its dispatches. Where the pipeline cuts splats there is one more,
 /// which does not, for tiles of which no splat is cut.
 pub(crate) fn finish<'a>(
     pass: Pass<'_, 'a>,
@@ -36,10 +39,10 @@ pub(crate) fn finish<'a>(
     (plan, key): (&TilePlan, ComputeKey),
     body: impl Fn(&TileDispatch<'_, '_>) -> Result<()> + 'a,
 ) -> Result<()> {
-    let unclipped = match key.constants.contains(&CLIPS) {
+    let uncut = match key.constants.contains(&CUTS) {
         true => {
             let mut key = key.clone();
-            key.constants.retain(|constant| *constant != CLIPS);
+            key.constants.retain(|constant| ![CUTS, CLIPS].contains(constant));
             Some(pass.compute(key)?)
         }
         false => None,
@@ -48,7 +51,7 @@ pub(crate) fn finish<'a>(
     pass.finish(move |pass| {
         pass.bind(pipeline);
         pass.bind_sets(Layout::Tile, 0, &[pass.set(Place::Tiles(0))?])?;
-        body(&TileDispatch { pass, constants, pipeline, unclipped })
+        body(&TileDispatch { pass, constants, pipeline, uncut })
     });
     Ok(())
 }
@@ -77,7 +80,7 @@ pub(crate) struct TileDispatch<'c, 'a> {
     pass: &'c Recording<'c, 'a>,
     pub constants: TileConstants,
     pipeline: Pipeline,
-    unclipped: Option<Pipeline>,
+    uncut: Option<Pipeline>,
 }
 
 impl TileDispatch<'_, '_> {
@@ -94,13 +97,13 @@ impl TileDispatch<'_, '_> {
         self.pass.dispatch_indirect(arguments(0), 4 * u64::from(first_word))
     }
 
-    /// Records a dispatch over all tiles with splats that are not too many; where some are clipped, one over those without, and one over
+    /// Records a dispatch over all tiles with splats that are not too many; where some are cut, one over those without, and one over
     /// the others.
     pub fn whole_tiles(&self, constants: TileConstants) -> Result<()> {
-        let Some(unclipped) = self.unclipped else {
+        let Some(uncut) = self.uncut else {
             return self.indirect(constants, ARGUMENTS_TILES);
         };
-        self.pass.bind(unclipped);
+        self.pass.bind(uncut);
         self.indirect(constants, ARGUMENTS_TILES)?;
         self.wait();
         self.pass.bind(self.pipeline);

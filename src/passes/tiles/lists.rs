@@ -78,14 +78,14 @@ impl<'a> Tiles<'a> {
         }
     }
 
-    /// Adds to a pass what it reads that walks over records: the tiles of each, and where some are clipped, which ones, and in which tiles.
+    /// Adds to a pass what it reads that walks over records: the tiles of each, and where some are cut, which ones, and in which tiles.
     pub fn read_for_walk<'g, 'b>(&self, pass: Pass<'g, 'b>) -> Pass<'g, 'b> {
-        let pass = self.read_as_texels(pass, [BIND_RECTS, BIND_RECT_TEXELS], &self.rects);
+        let mut pass = self.read_as_texels(pass, [BIND_RECTS, BIND_RECT_TEXELS], &self.rects);
+        if self.plan.parted_by() != 0 {
+            pass = self.read_as_texels(pass, [BIND_RECORDS, BIND_RECORD_TEXELS], &self.records[0]);
+        }
         match &self.clips {
-            Some(clips) => {
-                let pass = self.read_as_texels(pass, [BIND_RECORDS, BIND_RECORD_TEXELS], &self.records[0]);
-                self.read_as_texels(pass, [BIND_CLIPS, BIND_CLIP_TEXELS], clips)
-            }
+            Some(clips) => self.read_as_texels(pass, [BIND_CLIPS, BIND_CLIP_TEXELS], clips),
             None => pass,
         }
     }

@@ -29,6 +29,7 @@ fn key(variant: &Constants, plan: &TilePlan, listed: bool) -> ComputeKey {
         (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
         (SPEC_LISTED, u32::from(listed)),
         (SPEC_MAY_BE_LARGE, u32::from(plan.may_be_large)),
+        (SPEC_PARTED, plan.parted_by()),
     ]);
     ComputeKey { shader: &shaders::TILE_PROJECT_COMP, layout: Layout::Record, constants }
 }

@@ -16,7 +16,7 @@ use crate::passes::{
     splats::accumulate::Sums,
     tiles::{
         clear::clear,
-        dispatch,
+        dispatch::{self, CLIPS, CUTS},
         lists::Tiles,
         overflow::{self, extent_of_slots, in_parts},
         start::TileStart,
@@ -130,8 +130,9 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
         (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
         (SPEC_HALF_FLOATS, u32::from(images == Accumulate::F16)),
     ]);
-    if plan.clips {
-        constants.extend([(SPEC_PARTED, 1), (SPEC_CLIPS, 1)]);
+    if plan.parted_by() != 0 {
+        constants.extend([(SPEC_PARTED, plan.parted_by()), CUTS]);
+        constants.extend(plan.clips.then_some(CLIPS));
     }
     constants.extend(outline_constant(settings));
     if settings.edges == Edges::Coverage {

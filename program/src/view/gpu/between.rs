@@ -103,6 +103,21 @@ impl Gpu {
         Ok(())
     }
 
+    /// Gives back all that pictures were drawn in, and the images that are not shown, while the device has nothing to do; [`Self::tidy`] comes next. `shown`: the picture that is.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn forget_frames(&mut self, shown: Use) -> Result<()> {
+        self.headless.forget_frames()?;
+        let device = self.headless.device();
+        for which in Use::ALL {
+            // The picture by another method may be shown beside it.
+            let is_shown = which == shown || which == Use::Other;
+            self.pictures[which.index()].forget_frames(device, is_shown)?;
+        }
+        Ok(())
+    }
+
     /// Has all pipelines made again: their shaders have changed.
     #[cfg(feature = "live-shaders")]
     pub fn forget_pipelines(&mut self) {

@@ -94,9 +94,10 @@ impl TilePlan {
     }
 
     pub(crate) fn when_drawn(self, draws: &[Draw<'_>], culls_hidden: bool, limits: &Limits) -> Option<Self> {
-        let plan = match draws.iter().any(|draw| draw.chunk.clipped) {
-            true => self.with_clips(limits)?,
-            false => self,
+        let any = |has: fn(&Draw<'_>) -> bool| draws.iter().any(has);
+        let plan = match (any(|draw| draw.chunk.clipped), any(|draw| !draw.planes.is_empty())) {
+            (false, false) => self,
+            (clips, planes) => self.cut_by(clips, planes, limits)?,
         };
         Some(if culls_hidden { plan.without_hidden() } else { plan })
     }
