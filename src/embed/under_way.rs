@@ -24,8 +24,8 @@ pub(super) struct UnderWay {
     before: Vec<(u64, Written, OfHost)>,
 }
 
-/// Frames of one view that may be under way at once. Who never tells that an epoch is done is told so, in place of taking ever more.
-const MOST: usize = 16;
+/// Frames of one view that may be under way at once: more than any host records and resets in one epoch, for which no host shall be refused. Who never tells that an epoch is done is told so, in place of taking ever more.
+const MOST: usize = 256;
 
 impl UnderWay {
     /// Sees to it that nothing is written that a frame reads which may be under way. Where epochs are done by then, as with one view for each frame in flight, that is nothing.
@@ -51,9 +51,14 @@ impl UnderWay {
             slot.exchange(&mut free.1);
             std::mem::swap(of_host, &mut free.2);
             self.before.push((self.epoch, free.1, free.2));
+            self.epoch = 0;
         }
-        self.epoch = device.epoch();
         Ok(())
+    }
+
+    /// The frame is recorded now; one that is refused before is not under way.
+    pub fn record(&mut self, device: &Device) {
+        self.epoch = device.epoch();
     }
 
     /// Bytes of device memory.

@@ -5,8 +5,8 @@ use glam::{
     dcamera::rh::{proj::directx, view::look_at_mat4},
 };
 use surfel::{
-    Settings,
-    embed::{HostCamera, Placed, PreparedScene, View, ViewFrame},
+    ErrorKind, Settings,
+    embed::{HostCamera, MissingPipelines, Placed, PreparedScene, View, ViewFrame},
     scene::{ClipPlanes, Rasterizer, Scene},
 };
 
@@ -17,7 +17,7 @@ use crate::common::scenes;
 const HALF_PX: [u32; 2] = [SIZE_PX[0] / 2, SIZE_PX[1]];
 
 /// Frames of one view that may be under way.
-const MOST: usize = 16;
+const MOST: usize = 256;
 
 type Told = (Vec<[f32; 4]>, Vec<f64>, (Vec<u32>, Vec<[f32; 2]>));
 
@@ -115,8 +115,18 @@ fn a_view_of_which_nothing_is_known_to_be_done_is_refused_by_name_and_goes_on_th
         ..camera
     };
     let frame = ViewFrame::new(&placed, &camera, &settings);
+    let elsewhere = Settings { rasterizer: Rasterizer::Quad, ..settings.clone() };
+    let not_ready = ViewFrame {
+        missing: MissingPipelines::Refuse,
+        settings: &elsewhere,
+        ..ViewFrame::new(&placed, &camera, &settings)
+    };
     for round in 0..2 {
         for number in 0..=MOST {
+            let Beside { view, renderer, engine, .. } = &mut beside;
+            // SAFETY: refused before anything is recorded, so that no frame of it is under way.
+            let refused = unsafe { view.prepare(renderer, engine.commands, &not_ready) };
+            assert!(number == MOST || matches!(refused.unwrap_err().kind(), ErrorKind::NotReady { .. }));
             beside.engine.begin();
             let Beside { view, renderer, engine, .. } = &mut beside;
             // SAFETY: recording; none of them is submitted.
