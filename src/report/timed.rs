@@ -87,7 +87,7 @@ pub(super) mod tests {
     use super::*;
 
     /// Six rounds of two frames with these passes, on a machine that becomes slower.
-    pub(in crate::report) fn timed(
+    pub(crate) fn timed(
         passes: &[&str],
         passes_ms: &[f64],
         counts: &[Option<[u64; 2]>],

@@ -143,6 +143,27 @@ void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
         TRUE(fabs(there.position[0] - 5e5 - radius * (centers[3 * there.number] - 5e5)) < 0.2 && fabs(centers[3 * there.number + 2] - 1) < 0.1);
         TRUE(beside.kind == SURFEL_PICKED_NOTHING && beside.number == 0 && beside.distance == 0);
     }
+    /* A mirror shows on the one side of its picture what is seen on the other without it. */
+    double across[2];
+    for (int mirrored = 0; mirrored < 2; mirrored++) {
+        SurfelPicked there = {.sType = SURFEL_STRUCTURE_TYPE_PICKED, .size = sizeof there};
+        SurfelPick *pick;
+        frame = right_handed;
+        if (mirrored) frame.mirrored = VK_TRUE, frame.viewFromWorld[0] = -1, frame.viewFromWorld[12] = 5e5;
+        engine_begin(engine);
+        OK(surfel_pick(device, renderer, engine->commands, &frame, 0, WIDTH * 5 / 8, HEIGHT / 2, &pick));
+        engine_begin_rendering(engine, 1);
+        engine_end_rendering(engine);
+        engine_submit(engine);
+        uint64_t epoch;
+        OK(surfel_device_end_epoch(device, &epoch));
+        OK(surfel_device_epoch_done(device, epoch));
+        OK(surfel_pick_read(pick, prepared, &there));
+        surfel_pick_destroy(pick);
+        TRUE(there.kind == SURFEL_PICKED_SPLAT);
+        across[mirrored] = there.position[0] - 5e5;
+    }
+    TRUE(across[0] > 0.2 && fabs(across[0] + across[1]) < 0.02);
     frame = right_handed;
     SurfelPick *none;
     engine_begin(engine);

@@ -174,7 +174,7 @@ pub(super) mod tests {
 
     /// Two rasterizers, the second half as fast again. Ten times the splats take twice as long, four times the pixels four
     /// times; six rounds, the last of which is six times slower than the first.
-    pub(in crate::report) fn report() -> GrowthReport {
+    pub(crate) fn report() -> GrowthReport {
         let counts = [Some([10, 30]), Some([10, 40])];
         let point = |splats, side: u32, ms: f64, host| {
             let of = |name: &str, ms: f64, bytes| {

@@ -168,7 +168,7 @@ pub(super) mod tests {
 
     /// A million units in 2 ms, but for bytes, which take 10 ms; and a frame of two passes that takes 5 and 8 ms, and one of
     /// compute of which nothing is known. The machine becomes twice as slow.
-    pub(in crate::report) fn report() -> LimitsReport {
+    pub(crate) fn report() -> LimitsReport {
         let work = |limit, bytes_per_unit| LimitWork { limit, units: 1_000_000, bytes_per_unit };
         let works = [
             work(ThroughputProbe::Points, None),

@@ -16,9 +16,9 @@ use crate::common::scenes;
 /// The mirror.
 const ACROSS: DVec3 = DVec3::new(-1.0, 1.0, 1.0);
 
-/// Cuts the balls.
+/// Cuts the ball and the veil.
 const CORNERS: [DVec3; 3] =
-    [DVec3::new(-30.0, -20.0, 12.0), DVec3::new(30.0, -20.0, 3.0), DVec3::new(0.0, 30.0, -14.0)];
+    [DVec3::new(-30.0, -20.0, 33.3), DVec3::new(30.0, -20.0, -14.7), DVec3::new(0.0, 30.0, -12.2)];
 
 /// The engine's depth is of f32, and so is the sum of a pixel's colors, which are added in another order.
 const ROUNDING: f64 = 2e-5;
