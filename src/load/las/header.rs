@@ -105,6 +105,7 @@ pub(in crate::load) fn read(input: &Input<'_>) -> Result<Header> {
 }
 
 /// What the records say of the coordinates that are within the first bytes of a file.
+#[cfg(feature = "octrees")]
 pub(in crate::load) fn coordinates(head: &[u8]) -> Coordinates {
     let size = head.get(94..96).and_then(|size| size.try_into().ok()).map_or(0, u16::from_le_bytes);
     let data = head.get(96..100).and_then(|data| data.try_into().ok()).map_or(0, u32::from_le_bytes);

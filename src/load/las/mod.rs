@@ -18,9 +18,13 @@ use super::{Input, Loaded, Model, geographic::Place};
 use crate::{error::Result, notes::Deed, scene::Points};
 
 pub(in crate::load) use chunks::Chunk;
-pub(in crate::load) use columns::{Columns, NOISE};
+pub(in crate::load) use columns::Columns;
+#[cfg(feature = "octrees")]
+pub(in crate::load) use columns::NOISE;
 pub(in crate::load) use coordinates::Coordinates;
-pub(in crate::load) use header::{Header, coordinates, read as read_header};
+pub(in crate::load) use header::Header;
+#[cfg(feature = "octrees")]
+pub(in crate::load) use header::{coordinates, read as read_header};
 pub(in crate::load) use palette::Palette;
 
 /// How many points of an uncompressed file one thread reads at once.
