@@ -29,6 +29,16 @@
         }                                                \
     } while (0)
 
+/* Submits what is recorded, with nothing drawn after it, and waits; the epoch is done then. */
+static inline void run_without_drawing(Engine *engine, SurfelDevice *device) {
+    engine_begin_rendering(engine, 1);
+    engine_end_rendering(engine);
+    engine_submit(engine);
+    uint64_t epoch;
+    OK(surfel_device_end_epoch(device, &epoch));
+    OK(surfel_device_epoch_done(device, epoch));
+}
+
 /* A ball of 2000 splats, one of which can't be drawn. */
 SurfelPreparedScene *upload(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, float alpha);
 /* Frames of what is transparent, refused and drawn; then what is given is destroyed, in order, or else in an order of no sense. `foreign` is

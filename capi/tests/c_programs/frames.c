@@ -23,12 +23,7 @@ SurfelPreparedScene *upload(Engine *engine, SurfelDevice *device, SurfelRenderer
     engine_begin(engine);
     OK(surfel_upload(renderer, engine->commands, scene, &prepared));
     surfel_scene_destroy(scene);
-    engine_begin_rendering(engine, 1);
-    engine_end_rendering(engine);
-    engine_submit(engine);
-    uint64_t epoch;
-    OK(surfel_device_end_epoch(device, &epoch));
-    OK(surfel_device_epoch_done(device, epoch));
+    run_without_drawing(engine, device);
     SurfelPreparedSceneInfo info = {.sType = SURFEL_STRUCTURE_TYPE_PREPARED_SCENE_INFO, .size = sizeof info};
     OK(surfel_prepared_scene_info(prepared, &info));
     TRUE(info.splats == COUNT - 1 && info.leftOut == 1 && info.triangles == 0 && info.bytes > 32 * info.splats);

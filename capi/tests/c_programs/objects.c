@@ -127,12 +127,7 @@ void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
         if (round == 2) frame.leftHanded = VK_TRUE, frame.viewFromWorld[14] = 4, frame.clipFromView[11] = 1;
         engine_begin(engine);
         for (int i = 0; i < 2; i++) OK(surfel_pick(device, renderer, engine->commands, &frame, 0, at[i], HEIGHT / 2, picks + i));
-        engine_begin_rendering(engine, 1);
-        engine_end_rendering(engine);
-        engine_submit(engine);
-        uint64_t epoch;
-        OK(surfel_device_end_epoch(device, &epoch));
-        OK(surfel_device_epoch_done(device, epoch));
+        run_without_drawing(engine, device);
         OK(surfel_pick_read(picks[0], prepared, &there));
         OK(surfel_pick_read(picks[1], prepared, &beside));
         for (int i = 0; i < 2; i++) surfel_pick_destroy(picks[i]);
@@ -152,12 +147,7 @@ void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
         if (mirrored) frame.mirrored = VK_TRUE, frame.viewFromWorld[0] = -1, frame.viewFromWorld[12] = 5e5;
         engine_begin(engine);
         OK(surfel_pick(device, renderer, engine->commands, &frame, 0, WIDTH * 5 / 8, HEIGHT / 2, &pick));
-        engine_begin_rendering(engine, 1);
-        engine_end_rendering(engine);
-        engine_submit(engine);
-        uint64_t epoch;
-        OK(surfel_device_end_epoch(device, &epoch));
-        OK(surfel_device_epoch_done(device, epoch));
+        run_without_drawing(engine, device);
         OK(surfel_pick_read(pick, prepared, &there));
         surfel_pick_destroy(pick);
         TRUE(there.kind == SURFEL_PICKED_SPLAT);

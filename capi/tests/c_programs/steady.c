@@ -76,12 +76,7 @@ static Cost measure(Engine *engine, SurfelDevice *device, SurfelView *view, Surf
     frame.measures = measures;
     engine_begin(engine);
     OK(surfel_view_prepare(view, engine->commands, &frame));
-    engine_begin_rendering(engine, 1);
-    engine_end_rendering(engine);
-    engine_submit(engine);
-    uint64_t epoch;
-    OK(surfel_device_end_epoch(device, &epoch));
-    OK(surfel_device_epoch_done(device, epoch));
+    run_without_drawing(engine, device);
     Cost cost = {0};
     OK(surfel_view_measured(view, on_pass, &cost, span));
     return cost;
