@@ -17,6 +17,15 @@ use crate::error::{Error, Result};
 
 settings! {
     /// Every choice that changes the picture, apart from scene and camera.
+    ///
+    /// ```
+    /// use surfel::scene::{Edges, Epsilon, Settings};
+    ///
+    /// let settings = Settings { size_px: [640, 480], edges: Edges::Hard, ..Settings::default() };
+    /// assert!(settings.validate().is_ok());
+    /// let too_large = Settings { size_px: [70_000, 480], epsilon: Epsilon::Radii(1.0), ..settings };
+    /// assert!(too_large.validate().unwrap_err().to_string().contains("--size"));
+    /// ```
     #[derive(Clone, Debug, PartialEq)]
     Settings {
         /// Width and height in pixels.
