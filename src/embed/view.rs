@@ -34,8 +34,10 @@ use crate::{
 ///
 /// /// `begin` and `end` are around a rendering of the host's, such as the view was made for.
 /// unsafe fn record(view: &mut View, renderer: &Renderer, commands: vk::CommandBuffer, frame: &ViewFrame<'_>, [begin, end]: [&dyn Fn(); 2]) -> surfel::Result<()> {
+///     // SAFETY: this function's contract, that of `prepare` and `draw`.
 ///     unsafe { view.prepare(renderer, commands, frame) }?;
 ///     begin();
+///     // SAFETY: as above, within the rendering that has begun.
 ///     let drawn = unsafe { view.draw(renderer, commands) };
 ///     end();
 ///     drawn

@@ -49,6 +49,7 @@ use crate::{
 ///
 /// unsafe fn upload(device: &Device, commands: vk::CommandBuffer, scene: &Scene) -> surfel::Result<(Renderer, PreparedScene)> {
 ///     let renderer = Renderer::new(device, None)?;
+///     // SAFETY: this function's contract, that of `upload`.
 ///     let prepared = unsafe { renderer.upload(commands, scene) }?;
 ///     Ok((renderer, prepared))
 /// }

@@ -55,7 +55,9 @@ pub struct HostAllocation {
 ///         };
 ///         let of_type = (0..self.1.memory_type_count).find(will_do).ok_or(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY)?;
 ///         let info = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(of_type);
+///         // SAFETY: the device is alive, and the type is one of its.
 ///         let memory = unsafe { device.allocate_memory(&info, None) }?;
+///         // SAFETY: the memory is new, is not mapped, and the host sees it.
 ///         let mapped = match wanted.is_empty() {
 ///             true => None,
 ///             false => NonNull::new(unsafe { device.map_memory(memory, 0, needs.size, vk::MemoryMapFlags::empty()) }?.cast()),
@@ -64,6 +66,7 @@ pub struct HostAllocation {
 ///     }
 ///
 ///     fn free(&self, allocation: HostAllocation) {
+///         // SAFETY: it was allocated above, and nobody uses it any more.
 ///         unsafe { self.0.free_memory(allocation.memory, None) }
 ///     }
 /// }

@@ -22,6 +22,7 @@ use crate::error::{ErrorKind, Result};
 ///     // As the device was created; all that splats can do without is said at `Features`.
 ///     let enabled = Features::NEEDED;
 ///     let host = Import { instance, debug_utils: false, physical, device, queue_family, enabled, memory: None };
+///     // SAFETY: this function's contract, that of `import`: all of it is one device's, enabled as said.
 ///     unsafe { Device::import(&host) }
 /// }
 /// ```

@@ -42,11 +42,13 @@ pub struct Requirements {
 /// use surfel::ash::{self, vk};
 ///
 /// unsafe fn create(instance: &ash::Instance, physical: vk::PhysicalDevice, queue: vk::DeviceQueueCreateInfo<'_>) -> ash::Device {
+///     // SAFETY: this function's contract: the physical device is the instance's.
 ///     let needs = unsafe { surfel::requirements(instance, physical) };
 ///     assert!(needs.missing.is_empty(), "it lacks {:?}", needs.missing);
 ///     let (core, mut v12, mut v13) = (needs.features.core(), needs.features.vulkan12(), needs.features.vulkan13());
 ///     let queues = [queue.queue_family_index(needs.queue_family.unwrap())];
 ///     let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_features(&core);
+///     // SAFETY: as above; what is asked for is there, for nothing is missing.
 ///     unsafe { instance.create_device(physical, &info.push_next(&mut v12).push_next(&mut v13), None) }.unwrap()
 /// }
 /// ```

@@ -8,6 +8,7 @@
 /// /// Whether there is a frame to draw; while another thread compiles ahead, there is none, and no hitch.
 /// unsafe fn prepared(view: &mut View, renderer: &Renderer, commands: vk::CommandBuffer, frame: ViewFrame<'_>) -> surfel::Result<bool> {
 ///     let frame = ViewFrame { missing: MissingPipelines::Refuse, ..frame };
+///     // SAFETY: this function's contract, that of `prepare`.
 ///     match unsafe { view.prepare(renderer, commands, &frame) } {
 ///         Err(error) if matches!(error.kind(), ErrorKind::NotReady { .. }) => Ok(false),
 ///         prepared => prepared.map(|()| true),
