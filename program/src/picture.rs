@@ -6,6 +6,7 @@ use clap::{Arg, Args};
 use surfel::{
     Result,
     load::PictureDescription,
+    prepare::PreparedScene,
     renderer::Renderer,
     scene::{Camera, Crop, CropView, Edges, Encoding, Light, OptionValue as _, Samples, Scene, Settings},
 };
@@ -57,7 +58,7 @@ pub struct PictureArguments {
 }
 
 /// An eighth of a pixel is what the eye still sees of a stair.
-const SAMPLES_OF_POLYGONS: Samples = Samples(8);
+const SMOOTH: Samples = Samples(8);
 
 impl Taken for Settings {
     type Table = Self;
@@ -112,6 +113,22 @@ impl PictureArguments {
         Settings { samples: samples_unsaid(&settings, &loaded.scene, renderer), ..settings }
     }
 
+    /// These settings for a view of a scene, [`smoothed`] unless the command line says how many samples there are; of a part, as all of the picture is.
+    pub fn smoothed(
+        &self,
+        settings: Settings,
+        part: &Drawn,
+        view: (&PreparedScene, &Camera),
+        renderer: &Renderer,
+    ) -> Settings {
+        if self.settings.says("samples") || self.dump.is_some() {
+            return settings;
+        }
+        let whole = Settings { size_px: part.whole_px, ..settings.clone() };
+        let Settings { samples, edges, .. } = smoothed(whole, view, renderer);
+        Settings { samples, edges, ..settings }
+    }
+
     /// What is drawn, of a picture with those settings: the whole of it, or a part.
     ///
     /// # Errors
@@ -130,9 +147,22 @@ impl PictureArguments {
 /// without splats beside them, and with splats twice as far from what there is. Not where they can't be taken.
 pub fn samples_unsaid(settings: &Settings, scene: &Scene, renderer: &Renderer) -> Samples {
     let has_outlines = !scene.meshes.is_empty() && settings.edges == Edges::Coverage;
-    let several = Settings { samples: SAMPLES_OF_POLYGONS, ..settings.clone() };
+    let several = Settings { samples: SMOOTH, ..settings.clone() };
     let can = has_outlines && renderer.check_settings(&several).is_ok();
-    if can { SAMPLES_OF_POLYGONS } else { settings.samples }
+    if can { SMOOTH } else { settings.samples }
+}
+
+/// These settings; or, where splats of a view do not cover pixels in part in one sample, by their method or by their sizes, hard edges in several, which
+/// cover as much.
+pub fn smoothed(
+    settings: Settings,
+    (scene, camera): (&PreparedScene, &Camera),
+    renderer: &Renderer,
+) -> Settings {
+    let several = Settings { samples: SMOOTH, edges: Edges::Hard, ..settings.clone() };
+    let covers = || renderer.covers_in_part(scene, camera, &settings).unwrap_or(true);
+    let is_hard = settings.samples.0 == 1 && settings.edges == Edges::Coverage && !covers();
+    if is_hard && renderer.check_settings(&several).is_ok() { several } else { settings }
 }
 
 /// What is drawn of a picture.

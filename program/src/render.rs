@@ -151,6 +151,9 @@ fn refuse_beside_a_film(arguments: &RenderArguments) -> Result<()> {
     }
 }
 
+/// What `--explain` says of such a picture.
+const SMOOTHED: &str = "8 samples a pixel, with hard edges: in one, splats do not all cover pixels in part so (--samples 1 draws that)";
+
 fn draw(
     headless: &mut Headless,
     arguments: &RenderArguments,
@@ -166,12 +169,16 @@ fn draw(
     if picture.print_camera {
         console::print(&camera::words(&camera))?;
     }
-    let (camera, crop) = part.view(camera)?;
+    let (whole, (camera, crop)) = (camera, part.view(camera)?);
     steps.0.append(&mut loaded.steps);
     let seen = (&camera, &settings);
     let drawing::Ready { settings, scene: prepared } =
         drawing::ready(headless, &mut loaded, seen, &arguments.hierarchies, (&mut steps, &bars))?;
-    let settings = &settings;
+    let edges = settings.edges;
+    let settings = &picture.smoothed(settings, part, (&prepared, &whole), &headless.renderer);
+    if arguments.explain && settings.edges != edges {
+        console::print(SMOOTHED)?;
+    }
     let Loaded { inputs, ball, scene, .. } = loaded;
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);

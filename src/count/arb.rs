@@ -69,7 +69,8 @@ pub fn simple(op: Op, width: u32, operand_width: u32) -> Option<Vec<&'static str
             vec!["TEX"]
         }
         Op::ImageSampleProjImplicitLod | Op::ImageSampleProjExplicitLod => vec!["TXP"],
-        Op::ConvertSToF | Op::ConvertUToF | Op::Bitcast | Op::CopyObject | Op::UConvert => vec![],
+        Op::ConvertSToF | Op::ConvertUToF | Op::Bitcast | Op::UConvert => vec![],
+        Op::CopyObject | Op::CopyLogical => vec![],
         Op::CompositeConstruct | Op::CompositeExtract | Op::CompositeInsert | Op::VectorShuffle => vec![],
         // What a descriptor tells is there.
         Op::ArrayLength | Op::ImageQuerySizeLod => vec![],

@@ -44,6 +44,7 @@ pub fn count(specialized: &Specialized<'_>, live: &Live<'_>) -> Result<u32, Stri
             | Op::FNegate
             | Op::SNegate
             | Op::CopyObject
+            | Op::CopyLogical
             | Op::CompositeConstruct
             | Op::CompositeExtract
             | Op::CompositeInsert

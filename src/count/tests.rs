@@ -201,6 +201,16 @@ fn one_more_fetch_a_fragment_is_one_more_instruction() {
     assert_eq!((before.arb, after.arb), (Some(2), Some(3)), "TEX MUL; TEX TEX MAD");
 }
 
+/// A struct of a buffer is copied to one that is laid out otherwise; in registers both are the same.
+#[test]
+fn copies_of_structs_cost_nothing() {
+    let text = "struct S { vec3 a; float b; }; layout(set = 0, binding = 0, std140) uniform U { S of[4]; };\n\
+        layout(location = 0) flat in int i; layout(location = 0) out vec4 o;\n\
+        vec4 product(S s) { return vec4(s.a * s.b, 1.0); } void main() { o = product(of[i]); }";
+    let module = spirv(shaderc::ShaderKind::Fragment, text);
+    assert_eq!(count(&module, &[]).unwrap().scalar, 3);
+}
+
 #[test]
 fn compute_shaders_have_no_paper_comparable_count() {
     let text = "layout(local_size_x = 1) in; layout(set = 0, binding = 0, std430) buffer B { float x; };\n\

@@ -112,7 +112,7 @@ pub struct ExplainedUse {
 }
 
 impl Renderer {
-    /// Whether the surfaces of splats cover pixels in part where they end, as `--edges coverage` asks for: not by all methods, and not where splats are too large.
+    /// Whether all surfaces of splats cover pixels in part where they end, as `--edges coverage` asks for: not by all methods, and not where splats are too large.
     ///
     /// # Errors
     /// As [`Renderer::check`].
@@ -128,7 +128,7 @@ impl Renderer {
         let covers = |plan: &passes::plan::SurfacePlan<'_>| {
             !plan.bands().is_empty() && plan.settings.edges == Edges::Coverage
         };
-        Ok([&frame.opaque, &frame.transparent].into_iter().any(covers))
+        Ok([&frame.opaque, &frame.transparent].into_iter().filter(|plan| !plan.splats.is_empty()).all(covers))
     }
 
     /// Refuses settings that draw no levels of detail, of a scene that holds no more than some view of these needs

@@ -1,6 +1,8 @@
 //! Pictures in bands of the image against the same all at once: the same splats in every pixel, in sums of another order.
 
-use crate::common::{ALL, PICTURE, assert_same_bits, compare::F32, passes, scenes, shared, with_limits};
+use crate::common::{
+    ALL, PICTURE, assert_same_bits, compare::F32, oracle_of, passes, render_as, scenes, shared, with_limits,
+};
 use glam::DVec3;
 use surfel::{
     hard_scenes::{Hard, sphere, transparent},
@@ -8,9 +10,10 @@ use surfel::{
     prepare::PreparedScene,
     renderer::{Frame, Headless, Wanted},
     scene::{
-        Accumulate, Backfaces, Cull, Edges, Filter, Object, Order, Rasterizer, Scene, Settings, Shapes,
-        SplatFormat, Storage, TileInvocations, TileMemory,
+        Accumulate, Backfaces, Camera, Cull, Edges, Filter, Object, Order, Rasterizer, Scene, Settings,
+        Shapes, SplatFormat, Storage, TileInvocations, TileMemory,
     },
+    selftest::{light::compare_light, tolerance::LIGHT},
 };
 
 /// A scene by tiles, all at once or in as many bands as there can be, the surface as data or the picture alone.
@@ -260,4 +263,28 @@ fn what_bands_do_not_help_has_none() {
         assert_eq!(bands(&cut), 0, "{}", hard.name);
         assert_same_bits(&cut, &whole, hard.name);
     }
+}
+
+/// Disks as large as the picture, of which lists of all of it have no room: bands have, so that all of them cover pixels in part.
+#[test]
+fn splats_too_large_for_lists_of_the_image_cover_pixels_in_part_in_bands() {
+    let mut headless = shared();
+    let mut hard = hard("from near", vec![sphere(1500, DVec3::ZERO)], [0.0, 0.0, 6.0]);
+    hard.camera = Camera { target: DVec3::new(0.98, 0.0, 0.0), fov_y_rad: 0.02, ..hard.camera };
+    hard.settings.background = None;
+    let of_hard = Hard { settings: Settings { edges: Edges::Hard, ..hard.settings.clone() }, ..hard.clone() };
+    with_limits(
+        &mut headless,
+        |limits| limits.max_storage_buffer_range = 1 << 18,
+        |headless| {
+            let frame = render_as(headless, &hard, PICTURE);
+            assert!(bands(&frame) > 1 && !passes(&frame).contains(&"accumulate"), "{:?}", passes(&frame));
+            let errors = compare_light(&frame, &oracle_of(&hard));
+            println!("{} in {} bands", errors.row(hard.name), bands(&frame));
+            assert!(errors.worst <= LIGHT && errors.seen > 10_000 && errors.not_finite == 0, "{errors:?}");
+            let in_part = frame.linear.iter().filter(|pixel| pixel[3] > 0.05 && pixel[3] < 0.95).count();
+            assert!(in_part > 100, "{in_part}");
+            assert_eq!(bands(&render_as(headless, &of_hard, PICTURE)), 0);
+        },
+    );
 }

@@ -195,7 +195,9 @@ pub fn make(
                     ready
                 }
             };
-            let view = View { scene: &current.scene, camera: &camera, settings: &current.settings };
+            let whole = (&current.scene, shot);
+            let settings = &picture.smoothed(current.settings.clone(), part, whole, &headless.renderer);
+            let view = View { scene: &current.scene, camera: &camera, settings };
             let pixels = drawing::draw(headless, &encoding, view, crop, *format)?;
             let transparent = settings.background.is_none();
             pictures::save_picture(&place, *format, pixels.size_px, transparent, pixels.colors(*format))?;

@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use surfel::{
     Result,
-    scene::{Camera, Lod, Samples, Settings},
+    scene::{Camera, Edges, Lod, Samples, Settings},
 };
 
 use super::{frame_desc::Ends, told::Step, viewer::Viewer};
-use crate::picture::samples_unsaid;
+use crate::picture::{samples_unsaid, smoothed};
 
 /// How soon the device is looked at again.
 const LOOK: Duration = Duration::from_millis(5);
@@ -25,18 +25,18 @@ pub enum Refinement {
     Leveled,
     /// All of it.
     Whole,
-    /// One of so many samples.
-    Sample(usize, Samples),
+    /// One of so many samples, which have such edges.
+    Sample(usize, Samples, Edges),
 }
 
 /// The steps of a picture; of one sample that is the whole itself.
-fn steps(is_leveled: bool, samples: Samples) -> impl Iterator<Item = Refinement> {
+fn steps(is_leveled: bool, samples: Samples, edges: Edges) -> impl Iterator<Item = Refinement> {
     let several = if samples.0 > 1 { samples.0 as usize } else { 0 };
     let leveled = is_leveled.then_some(Refinement::Leveled);
     leveled
         .into_iter()
         .chain([Refinement::Whole])
-        .chain((0..several).map(move |i| Refinement::Sample(i, samples)))
+        .chain((0..several).map(move |i| Refinement::Sample(i, samples, edges)))
 }
 
 impl Refinement {
@@ -54,39 +54,43 @@ impl Refinement {
         match self {
             Self::Leveled => (camera, Settings { lod: Lod::Px(LEVELED_PX), ..whole.clone() }, None),
             Self::Whole => (camera, whole.clone(), None),
-            Self::Sample(number, samples) => {
+            Self::Sample(number, samples, edges) => {
                 let offsets_px = samples.offsets_px(whole.kernel);
                 let ends = Ends { first: number == 0, last: number + 1 == offsets_px.len() };
                 let camera = offsets_px.get(number).map_or(camera, |offset_px| camera.sample(*offset_px));
-                (camera, Settings { samples, ..whole.clone() }, Some(ends))
+                (camera, Settings { samples, edges, ..whole.clone() }, Some(ends))
             }
         }
     }
 }
 
 impl Viewer {
-    /// How many samples a pixel of the picture has with these settings, as `surfel render` would draw it.
-    pub fn samples_of(&self, settings: &Settings) -> Samples {
+    /// These settings with as many samples as a pixel of the picture has, as `surfel render` would draw it.
+    pub fn sampled(&self, settings: &Settings) -> Settings {
         let said = Settings { samples: self.samples, ..settings.clone() };
-        match &self.document {
-            Some(document) if !self.options.says_samples => {
-                samples_unsaid(&said, &document.scene, &self.gpu.headless.renderer)
-            }
-            _ => self.samples,
-        }
+        let (Some(document), Some(prepared), Some(camera), false) =
+            (&self.document, &self.prepared, self.camera(), self.options.says_samples)
+        else {
+            return said;
+        };
+        let renderer = &self.gpu.headless.renderer;
+        let samples = samples_unsaid(&said, &document.scene, renderer);
+        smoothed(Settings { samples, ..said }, (prepared.scene(), &camera), renderer)
     }
 
     /// The next step to the picture at rest, if there is one. `whole`: how all of it is drawn.
     pub fn next_refinement(&self, whole: &Settings) -> Option<Refinement> {
         // Two pictures are compared as they are.
-        let samples = if self.comparing.is_some() { Samples(1) } else { self.samples_of(whole) };
+        let sampled = self.comparing.is_none().then(|| self.sampled(whole));
+        let (samples, edges) =
+            sampled.map_or((Samples(1), whole.edges), |sampled| (sampled.samples, sampled.edges));
         let has_levels = self.prepared.as_ref().is_some_and(|prepared| prepared.step() == Step::Leveled);
         let is_leveled = has_levels
             && self.settings.lod == Lod::Auto
             && whole.lod != Lod::Auto
             && self.comparing.is_none()
             && self.is_hasty;
-        steps(is_leveled, samples).nth(self.refined)
+        steps(is_leveled, samples, edges).nth(self.refined)
     }
 
     /// Counts the splats that the picture at rest is made of, for the panel, by drawing it once more; 0 where a method does not list them.
@@ -132,16 +136,19 @@ mod tests {
 
     #[test]
     fn steps_end_with_the_picture_that_render_writes() {
-        let all = |is_leveled, samples| steps(is_leveled, Samples(samples)).collect::<Vec<_>>();
+        let all = |is_leveled, samples| steps(is_leveled, Samples(samples), Edges::Hard).collect::<Vec<_>>();
         assert_eq!(all(false, 1), [Refinement::Whole]);
         assert_eq!(all(true, 1), [Refinement::Leveled, Refinement::Whole]);
         let several = all(false, 8);
-        assert_eq!((several.len(), several[8]), (9, Refinement::Sample(7, Samples(8))));
+        assert_eq!((several.len(), several[8]), (9, Refinement::Sample(7, Samples(8), Edges::Hard)));
         let (camera, whole) = (Camera::default(), Settings::default());
         let offsets_px = Samples(8).offsets_px(Kernel::default());
         for (number, offset_px) in offsets_px.iter().enumerate() {
             let (seen, settings, ends) = several[1 + number].of(camera, &whole);
-            assert_eq!((seen, settings.samples), (camera.sample(*offset_px), Samples(8)));
+            assert_eq!(
+                (seen, settings.samples, settings.edges),
+                (camera.sample(*offset_px), Samples(8), Edges::Hard)
+            );
             assert_eq!(ends, Some(Ends { first: number == 0, last: number == 7 }));
         }
     }

@@ -66,10 +66,9 @@ impl Viewer {
         let size_px = self.options.picture_size.unwrap_or(self.window_px());
         let (background, encoding) = (self.settings.background, self.encoding);
         let settings = self.at_rest(&Settings { size_px, ..self.settings.clone() });
-        let samples = self.samples_of(&settings);
         // A curve is of what is drawn alone; the background is put under it after that.
         let background_drawn = background.filter(|_| encoding.is_plain());
-        let settings = Settings { samples, background: background_drawn, ..settings };
+        let settings = Settings { background: background_drawn, ..self.sampled(&settings) };
         let (Some(camera), Some(prepared)) = (self.camera(), &mut self.prepared) else { return Ok(None) };
         let path = free_name("surfel", "png");
         let scene_number = self.scene_number;

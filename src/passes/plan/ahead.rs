@@ -121,12 +121,13 @@ impl Ahead {
         }
         let rows = rows_of_image(settings);
         let boxes = || splats.iter().map(|_| (1, 1.0));
-        let of =
-            |invocations| TilePlan::of_boxes(splats.len(), boxes(), settings.size_px, limits, invocations);
+        let of = |invocations| {
+            TilePlan::of_boxes(splats.len(), boxes(), (settings.size_px, rows.clone()), limits, invocations)
+        };
         let invocations = Invocations::of(settings.tile_invocations, limits, self.small);
         let plan = of(invocations).or_else(|| of(invocations.of_full_height()));
         let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
-        let plan = plan.and_then(|plan| plan.within(rows.clone()).when_drawn(splats, culls_hidden, limits));
+        let plan = plan.and_then(|plan| plan.when_drawn(splats, culls_hidden, limits));
         let plan = plan.ok_or("ahead: too many for tiles")?;
         let plan = TilePlan { may_be_large: self.large, overflows_somewhere: self.overflows, ..plan };
         let mut own = arena.growing();

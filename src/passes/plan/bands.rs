@@ -95,6 +95,30 @@ pub(crate) fn cut_into_bands<'m>(
     cut.within(most_bytes, ends).unwrap_or_default()
 }
 
+/// The plans of as few bands as leave none of what `whole` would draw to the graphics pipeline, for which it has no room in lists of all of the image: so all of it can cover pixels in
+/// part. None where no number of bands does, as where something comes near the eye.
+pub(crate) fn cut_without_large<'m>(
+    arena: &'m Arena,
+    draws: &[Draw<'_>],
+    seen: &PotentiallyVisibleBlocks<'_>,
+    whole: &TilePlan,
+    settings: &Settings,
+    limits: &Limits,
+) -> Option<&'m [TilePlan]> {
+    if !seen.boxes(&seen.rows()?).all(|(_, px)| px.is_finite()) {
+        return None;
+    }
+    let costs = seen.costs(arena, |box_px| whole.bytes_of_one(box_px));
+    let cut = Cut { arena, draws, seen, costs, whole, settings, limits };
+    let Range { start, end } = seen.rows()?;
+    // Of equal parts: most of what is so large is in all of them.
+    let ends = |bands: u32| arena.list((1..bands).map(|band| start + (end - start) * band / bands));
+    let bands = std::iter::successors(Some(2), |bands| Some(2 * bands))
+        .take_while(|bands| *bands <= MOST_BANDS as u32);
+    let plans = |bands: u32| cut.plans_between(ends(bands));
+    bands.filter_map(plans).find(|plans| plans.iter().all(|plan| !plan.may_be_large))
+}
+
 /// What is cut into bands.
 struct Cut<'c, 'm> {
     arena: &'m Arena,
@@ -191,24 +215,59 @@ mod tests {
     use super::*;
     use crate::{
         math::random::SplitMix,
-        passes::plan::{draws::draws, range::DepthRange, tiles::rows::rows_of_image},
-        prepare::{Placed, prepare_without_device},
-        scene::{Camera, Colors, Object, Rasterizer, Scene, Shapes, Splats},
+        passes::plan::{FramePlan, draws::draws, range::DepthRange, tiles::rows::rows_of_image},
+        prepare::{Placed, PreparedScene, prepare_without_device},
+        scene::{Camera, Colors, Edges, Object, Rasterizer, Scene, Shapes, Splats},
     };
+
+    fn sheet(count: usize, radius: f32) -> PreparedScene {
+        let mut random = SplitMix(3);
+        let mut side = || 2.0 * random.unit() - 1.0;
+        let positions = (0..count).map(|_| DVec3::new(side(), side(), 0.0)).collect();
+        let shapes = Shapes::Disks { normals: vec![Vec3::Z; count], radii: vec![radius; count] };
+        let splats = Splats::new(positions, shapes, Colors::Uniform([1.0; 4]));
+        let objects = vec![Object { name: "sheet".to_owned(), splats, closed: false }];
+        prepare_without_device(&Limits::plain(), &Scene { objects, ..Scene::default() }).expect("a sheet")
+    }
+
+    fn camera() -> Camera {
+        Camera { eye: DVec3::new(0.0, 0.0, 2.6), ..Camera::default() }
+    }
+
+    /// Disks as large as the image, of which lists have a hundred million entries. What comes near the eye plane has no bound.
+    #[test]
+    fn bands_have_room_for_what_is_too_large_for_lists_of_all_of_the_image() {
+        let (limits, arena) = (Limits::plain(), Arena::new());
+        let bands = |scene: &PreparedScene, camera: &Camera, edges| {
+            let settings = Settings { size_px: [1024; 2], edges, ..Settings::default() };
+            let plan = FramePlan::new(&arena, &[Placed::at_home(scene)], camera, &settings, &limits);
+            assert_eq!(
+                plan.opaque.settings.edges == Edges::Coverage,
+                !plan.opaque.bands()[0].plan.may_be_large
+            );
+            plan.opaque.bands().iter().map(|band| band.plan.clone()).collect::<Vec<_>>()
+        };
+        let large = sheet(10_000, 1.0);
+        let cut = bands(&large, &camera(), Edges::Coverage);
+        assert!((2..=MOST_BANDS).contains(&cut.len()), "{cut:?}");
+        assert!(cut.iter().all(|plan| !plan.may_be_large && plan.bytes() < 100_000_000), "{cut:?}");
+        let rows: Vec<_> = cut.iter().map(|plan| plan.rows.clone()).collect();
+        assert!(rows.windows(2).all(|pair| pair[0].end == pair[1].start), "{rows:?}");
+        assert_eq!((rows[0].start, rows[rows.len() - 1].end), (0, 128));
+        let beside_eye = Camera { eye: DVec3::new(0.5, 0.5, 0.0), target: DVec3::ZERO, ..camera() };
+        for (camera, edges) in [(camera(), Edges::Hard), (beside_eye, Edges::Coverage)] {
+            let whole = bands(&large, &camera, edges);
+            assert!(whole.len() == 1 && whole[0].may_be_large, "{whole:?}");
+        }
+        assert_eq!(bands(&sheet(10_000, 0.01), &camera(), Edges::Coverage).len(), 1);
+    }
 
     /// Few splats in a large image, whose tiles take more than they do, and many.
     #[test]
     fn a_band_takes_no_more_than_it_may_tiles_without_splats_included() {
         let limits = Limits::plain();
         for (count, radius, side_px) in [(20_000, 0.01, 4096), (100_000, 0.004, 3000)] {
-            let mut random = SplitMix(3);
-            let mut side = || 2.0 * random.unit() - 1.0;
-            let positions = (0..count).map(|_| DVec3::new(side(), side(), 0.0)).collect();
-            let shapes = Shapes::Disks { normals: vec![Vec3::Z; count], radii: vec![radius; count] };
-            let splats = Splats::new(positions, shapes, Colors::Uniform([1.0; 4]));
-            let objects = vec![Object { name: "sheet".to_owned(), splats, closed: false }];
-            let prepared =
-                prepare_without_device(&limits, &Scene { objects, ..Scene::default() }).expect("a sheet");
+            let prepared = sheet(count, radius);
             let most = 16_000_000;
             let settings = Settings {
                 size_px: [side_px; 2],
@@ -216,9 +275,8 @@ mod tests {
                 tile_memory: TileMemory::Most(most),
                 ..Settings::default()
             };
-            let camera = Camera { eye: DVec3::new(0.0, 0.0, 2.6), ..Camera::default() };
-            let range = DepthRange::of(&[Placed::at_home(&prepared)], &camera);
-            let camera = range.begin(&camera);
+            let range = DepthRange::of(&[Placed::at_home(&prepared)], &camera());
+            let camera = range.begin(&camera());
             let arena = Arena::new();
             let draws = arena.list(draws(Placed::at_home(&prepared), (&camera, range), &settings, &limits));
             let rows = rows_of_image(&settings);

@@ -3,7 +3,7 @@
 use crate::passes::plan::few::are_few;
 use crate::passes::plan::{
     bands::{
-        MOST_BANDS, bands_gain, cut_into_bands,
+        MOST_BANDS, bands_gain, cut_into_bands, cut_without_large,
         ends::{largest_of, likely_bands, likely_ends},
         most_bytes,
     },
@@ -113,6 +113,8 @@ fn bands<'a>(
         PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
+    // Bands may have room for what is too large for lists of all of the image; but polygons may be drawn between two passes over all of it.
+    let leaves_large = |plan: &TilePlan| plan.may_be_large && !polygons && settings.covers_in_part();
     let (seen, whole, ends) = if splats.iter().any(|draw| draw.levels.is_some()) {
         // Of levels of detail there may be many more splats than there is room for; those that may be drawn are few.
         let seen = seen();
@@ -125,8 +127,9 @@ fn bands<'a>(
     } else {
         let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
         // Bands are made of listed splats, too.
-        let gains =
-            culling::may_leave_out(splats) || whole.bytes() > most_bytes(splats, settings.tile_memory);
+        let gains = culling::may_leave_out(splats)
+            || whole.bytes() > most_bytes(splats, settings.tile_memory)
+            || leaves_large(&whole);
         if !gains || !culling::lists_tiles(splats, settings, limits) {
             let mut own = arena.growing();
             own.extend_from_slice_copy(splats);
@@ -175,13 +178,16 @@ fn bands<'a>(
             }
         }
     };
-    if left_to_others(&whole) {
+    let without_large = leaves_large(&whole)
+        .then(|| cut_without_large(arena, splats, &seen, &whole, settings, limits))
+        .flatten();
+    if without_large.is_none() && left_to_others(&whole) {
         return None;
     }
-    // Polygons may be drawn between two passes over the whole image.
-    let cut = match polygons {
-        true => &[],
-        false => cut_into_bands(arena, splats, (&seen, ends), &whole, settings, limits),
+    let cut = match without_large {
+        Some(cut) => cut,
+        None if polygons => &[],
+        None => cut_into_bands(arena, splats, (&seen, ends), &whole, settings, limits),
     };
     // A splat that is large for a band alone would be the graphics pipeline's, too.
     match cut.is_empty() || cut.iter().any(left_to_others) {

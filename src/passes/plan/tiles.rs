@@ -28,7 +28,7 @@ fn most_tiles_a_side(place_bits: u32) -> u32 {
 
 /// Entries of lists that there is room for at least, where the device allows it; for each splat; and for each pixel: as much as
 /// sums of 16 bits take.
-const LEAST_ENTRIES: u64 = 8 << 20;
+const LEAST_ENTRIES: u64 = 16 << 20;
 const ENTRIES_A_SPLAT: u64 = 16;
 const ENTRIES_A_PIXEL: u64 = 4;
 
@@ -125,11 +125,11 @@ impl TilePlan {
         if self.clips { self.record_room * u64::from(CLIP_VECTORS) * RECORD_BYTES } else { 0 }
     }
 
-    /// The same for so many chunks with so many splats of boxes up to so many pixels.
+    /// The plan for rows of an image, and so many chunks with so many splats of boxes up to so many pixels.
     pub(crate) fn of_boxes(
         chunks: usize,
         boxes: impl Iterator<Item = (u32, f64)> + Clone,
-        [width, height]: [u32; 2],
+        ([width, height], rows): ([u32; 2], Range<u32>),
         limits: &Limits,
         invocations: Invocations,
     ) -> Option<Self> {
@@ -137,8 +137,8 @@ impl TilePlan {
         // A record, or an entry, is a texel of each buffer that it is in.
         let most_texels = if invocations.fetch_texels() { u64::from(limits.max_texels) } else { u64::MAX };
         let records: u64 = boxes.clone().map(|(count, _)| u64::from(count)).sum();
-        let rows = 0..height.div_ceil(BAND_ROW);
-        let (tiles_x, tiles_y) = (width.div_ceil(TILE_WIDTH), tile_rows(rows.end, invocations));
+        let all_rows = 0..height.div_ceil(BAND_ROW);
+        let (tiles_x, tiles_y) = (width.div_ceil(TILE_WIDTH), tile_rows(all_rows.end, invocations));
         let tile_count = tiles_x * tiles_y;
         let bins = u64::from(tile_count) + chunks as u64;
         let segments_with_room = range / 4 / bins / u64::from(BIN_GROUP_SIZE) * u64::from(BIN_GROUP_SIZE);
@@ -163,7 +163,9 @@ impl TilePlan {
         // Rounds are as long as if each of their records had the most; there must not be too many.
         let in_rounds = |rounds: u32| u64::from(rounds * MOST_ITERATIONS / segment_length).max(MOST_OF_MANY);
         // A splat that is left to the graphics pipeline has an entry, too.
-        let tiles = ImageTiles { along: [tiles_x, tiles_y], invocations };
+        let image = ImageTiles { along: [tiles_x, tiles_y], invocations };
+        let own_rows = tile_rows(rows.end - rows.start, invocations);
+        let tiles = ImageTiles { along: [tiles_x, own_rows], invocations };
         let entries = |most: u64| -> u64 {
             boxes.clone().map(|(count, px)| u64::from(count) * tiles.of(px).min(most)).sum()
         };
@@ -171,7 +173,7 @@ impl TilePlan {
         let of_largest = tiles.of(largest);
         // What has no bound may come near the eye.
         let has_rect =
-            largest.is_finite() && tiles.along(largest).iter().all(|a_side| *a_side <= most_a_side.into());
+            largest.is_finite() && image.along(largest).iter().all(|a_side| *a_side <= most_a_side.into());
         let fits = has_rect && of_largest <= in_rounds(MOST_ROUNDS_OF_ALL) && entries(of_largest) <= room;
         let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds(MOST_ROUNDS));
         // As many as there is room for if all have them; or as they have, where there is room for all.
@@ -183,9 +185,9 @@ impl TilePlan {
         let entry_room = entries(most_tiles);
         let most_tiles = most_tiles as u32;
         let walk_length = TILE_BATCH * MOST_ITERATIONS / 2;
-        Some(Self {
+        let whole = Self {
             tiles_x,
-            rows,
+            rows: all_rows,
             tile_count,
             record_count,
             record_room: records,
@@ -209,7 +211,8 @@ impl TilePlan {
             clips: false,
             planes: false,
             invocations,
-        })
+        };
+        Some(whole.within(rows))
     }
 
     /// The plan for splats of which clip curves or planes cut off something; none where the curves have no room.

@@ -97,7 +97,7 @@ fn steps(settings: &Settings) -> impl Iterator<Item = (u32, u32)> + use<> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::passes::plan::invocations::Invocations;
+    use crate::passes::plan::{invocations::Invocations, tiles::rows::all_of};
     use crate::{scene::Layers, vk::Limits};
 
     #[test]
@@ -116,7 +116,7 @@ mod tests {
                     let plan = TilePlan::of_boxes(
                         1,
                         std::iter::once((records, 10.0)),
-                        [512, 512],
+                        all_of([512, 512]),
                         &limits,
                         Invocations::Columns,
                     )

@@ -18,7 +18,12 @@ use crate::{
 
 /// All rows that bands can have.
 pub(crate) fn rows_of_image(settings: &Settings) -> Range<u32> {
-    0..settings.size_px[1].div_ceil(BAND_ROW)
+    all_of(settings.size_px).1
+}
+
+/// An image of this size, and all of its rows.
+pub(crate) fn all_of(size_px: [u32; 2]) -> ([u32; 2], Range<u32>) {
+    (size_px, 0..size_px[1].div_ceil(BAND_ROW))
 }
 
 /// Rows of tiles in so many rows of a band.
@@ -69,9 +74,10 @@ impl TilePlan {
         limits: &Limits,
     ) -> Option<Self> {
         let size_px = settings.size_px;
-        let plan = Self::of_boxes(draws.len(), seen.boxes(&rows), size_px, limits, self.invocations)?;
+        let boxes = seen.boxes(&rows);
+        let plan = Self::of_boxes(draws.len(), boxes, (size_px, rows.clone()), limits, self.invocations)?;
         // Bands are to save memory, which the counts of more pieces take.
-        Self { pieces: 1, ..plan.within(rows) }.when_drawn(draws, self.hidden, limits)
+        Self { pieces: 1, ..plan }.when_drawn(draws, self.hidden, limits)
     }
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
@@ -86,10 +92,10 @@ impl TilePlan {
         // By all that is drawn, so that all bands have the same.
         let all = || draws.iter().flat_map(Draw::boxes);
         let invocations = Invocations::of(settings.tile_invocations, limits, are_small(all()));
-        let of =
-            |invocations| Self::of_boxes(draws.len(), boxes.clone(), settings.size_px, limits, invocations);
+        let area = (settings.size_px, rows);
+        let of = |invocations| Self::of_boxes(draws.len(), boxes.clone(), area.clone(), limits, invocations);
         // Twice as many tiles of a huge image may have no room; in no band then.
-        let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
+        let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?;
         plan.when_drawn(draws, culls_hidden, limits)
     }
 
