@@ -96,7 +96,8 @@ named! {
     /// What a pixel shows where a surface ends.
     Edges {
         /// As much of the surface as covers the pixel under the filter, over what is behind it. With filters that widen splats by a
-        /// convolution (`adjust`, `adjust-paper`, `ewa`), where splats are drawn by tiles; else as `hard`.
+        /// convolution (`adjust`, `adjust-paper`, `ewa`), where splats are drawn by tiles; else as `hard`, of which the program takes 8 samples a
+        /// pixel unless it is told how many.
         Coverage = "coverage",
         /// All of the surface, as in the papers: a pixel is covered or not.
         Hard = "hard",
