@@ -34,6 +34,9 @@ mod view;
 mod ahead;
 mod pick;
 
+#[cfg(test)]
+mod without_device;
+
 /// The version of this header: as `VK_MAKE_API_VERSION(0, major, minor, patch)`.
 pub const SURFEL_VERSION: u32 = 1 << 12;
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use surfel::{
-    embed::{MemoryHeap, MemoryHeaps},
+    embed::MemoryHeap,
     notes::counted,
     renderer::{ExplainedChunk, ExplainedMesh, Explanation},
 };
@@ -17,7 +17,7 @@ pub fn text(explanation: &Explanation, listed: Option<u64>) -> String {
 }
 
 /// How much memory the device has, and how much of it this process may have.
-pub fn heaps(heaps: &MemoryHeaps) -> String {
+pub fn heaps(heaps: &[MemoryHeap]) -> String {
     let of = |heap: &MemoryHeap| {
         let own = if heap.is_local { ", the device's own" } else { "" };
         match heap.usage {
@@ -25,7 +25,7 @@ pub fn heaps(heaps: &MemoryHeaps) -> String {
             None => format!("{} bytes{own}, budget not told", heap.size),
         }
     };
-    let lines = heaps.heaps().iter().enumerate().map(|(i, heap)| format!("memory, heap {i}: {}\n", of(heap)));
+    let lines = heaps.iter().enumerate().map(|(i, heap)| format!("memory, heap {i}: {}\n", of(heap)));
     lines.collect()
 }
 
@@ -113,4 +113,23 @@ fn mesh_words(mesh: &ExplainedMesh) -> String {
     let (triangles, vertices) =
         (counted((*triangles).into(), "triangles"), counted((*vertices).into(), "vertices"));
     format!("{triangles}, {vertices}, {closed}{layers}, {bytes} bytes; {culled}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heaps_have_a_line_each_with_the_budget_where_the_driver_tells_it() {
+        let told = MemoryHeap { size: 1000, is_local: true, budget: 800, usage: Some(30) };
+        let used_by_none = MemoryHeap { size: 500, is_local: false, budget: 400, usage: Some(0) };
+        let not_told = MemoryHeap { size: 2000, is_local: false, budget: 2000, usage: None };
+        assert_eq!(
+            heaps(&[told, used_by_none, not_told]),
+            "memory, heap 0: 1000 bytes, the device's own, budget 800 bytes, 30 in use\n\
+             memory, heap 1: 500 bytes, budget 400 bytes, 0 in use\n\
+             memory, heap 2: 2000 bytes, budget not told\n"
+        );
+        assert_eq!(heaps(&[]), "");
+    }
 }

@@ -285,7 +285,7 @@ fn write(
         let has_levels = explanation.levels.is_some();
         let count = || headless.count_listed(view.scene, view.camera, view.settings);
         let listed = has_levels.then(count).transpose()?;
-        let heaps = explain::heaps(&headless.device().memory_heaps());
+        let heaps = explain::heaps(headless.device().memory_heaps().heaps());
         return console::print(&(explain::text(&explanation, listed) + &heaps));
     }
     explanation.beyond_f32.iter().for_each(|note| console::say(note));
