@@ -19,7 +19,7 @@ use super::{
 use crate::outputs::with_models;
 
 impl Viewer {
-    /// News of the thread that reads files.
+    /// News of a thread.
     ///
     /// # Errors
     /// Of the first files, or the device.
@@ -47,6 +47,13 @@ impl Viewer {
                 });
                 // A thread that is gone needs no answer.
                 let _ = answer.send(done);
+                Ok(())
+            }
+            News::Ran(kind) => {
+                if let Some(ahead) = &mut self.ahead {
+                    ahead.is_done(&kind);
+                }
+                self.window.request_redraw();
                 Ok(())
             }
             #[cfg(feature = "live-shaders")]

@@ -7,6 +7,7 @@ use surfel::{Error, ErrorKind, Result};
 use super::{
     anchor::Anchor,
     device::{is_device_lost, open_again},
+    meanwhile::Before,
     ui::Ui,
     viewer::Viewer,
 };
@@ -22,7 +23,9 @@ impl Viewer {
     pub fn recover(&mut self, error: Error) -> Result<()> {
         self.steps = None;
         // Methods that a camera rules out, and cameras beyond what 32 bits tell apart.
-        if let (ErrorKind::Option { .. }, Some((settings, camera))) = (error.kind(), self.drawn.take()) {
+        if let (ErrorKind::Option { .. }, Some(Before { settings, camera, .. })) =
+            (error.kind(), self.drawn.take())
+        {
             self.tell(&error.to_string());
             self.settings = settings;
             if let Some(navigation) = &mut self.navigation {

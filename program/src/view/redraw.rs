@@ -13,6 +13,7 @@ use super::{
     document::Document,
     frame_desc::{Drawn, FrameDesc},
     keys::Comparing,
+    meanwhile::Before,
     on_device::{OnDevice, Paged},
     overlay::OverlayFrame,
     picture::Use,
@@ -121,13 +122,18 @@ impl Viewer {
             Drawn::Shown => {
                 if let (Some(which), Some(camera)) = (which, self.camera()) {
                     self.shown = which;
-                    // What has changed since its first step is drawn next.
-                    if !was_step {
-                        self.is_stale = false;
+                    match &mut self.drawn {
+                        // What has changed since its first step is drawn next.
+                        Some(_) if was_step => {}
+                        Some(drawn) if self.is_unsure => drawn.camera = camera,
+                        drawn => {
+                            let other = self.comparing.map(|_| self.other.clone());
+                            let (settings, encoding) = (self.settings.clone(), self.encoding);
+                            let scene_number = self.scene_number;
+                            *drawn = Some(Before { settings, camera, encoding, scene_number, other });
+                        }
                     }
-                    if !was_step || self.drawn.is_none() {
-                        self.drawn = Some((self.settings.clone(), camera));
-                    }
+                    self.is_stale &= was_step || self.is_unsure;
                 }
                 if self.input.flies() || self.path.plays() {
                     self.window.request_redraw();
@@ -147,17 +153,20 @@ impl Viewer {
             Some(steps) => steps.choice,
             None => self.choose(is_moving, &whole)?,
         };
-        let scene = self.prepared.as_ref().map(OnDevice::scene);
-        let mut views = scene.or(self.warm.as_ref()).map_or(Vec::new(), |scene| choice.views(scene));
-        // The window goes on with the picture that is there until the pipelines of another are.
-        let is_asked = !views.is_empty();
+        let scene = self.prepared.as_ref().map(OnDevice::scene).or(self.warm.as_ref());
+        // The window goes on with the settings of before until the pipelines of others are there.
+        let is_asked = scene.is_some() && !choice.pictures.is_empty();
         if self.is_unsure && is_asked && !is_step {
-            self.is_unsure = !self.gpu.make_pipelines(&views)?;
+            self.is_unsure = !self.has_pipelines(&choice, &whole)?;
             if self.is_unsure {
-                views.clear();
-                self.window.request_redraw();
+                choice.pictures = Vec::new();
+                if let Some(before) = self.as_before() {
+                    choice = before;
+                }
             }
         }
+        let scene = self.prepared.as_ref().map(OnDevice::scene).or(self.warm.as_ref());
+        let views = scene.map_or(Vec::new(), |scene| choice.views(scene));
         if self.ui.set_compiling(is_step || self.is_unsure && is_asked) {
             self.window.request_redraw();
         }
@@ -191,7 +200,7 @@ impl Viewer {
         if asked > 0 && finished == asked && self.prepared.is_none() {
             self.warm = None;
         }
-        if done == Drawn::Shown && drawn == Some(Use::Still) && self.prepared.is_some() {
+        if done == Drawn::Shown && drawn == Some(Use::Still) && self.prepared.is_some() && !self.is_unsure {
             // What comes after the whole picture answers to something else.
             self.input_at.take_if(|at| what == "whole" && !is_moving && Some(*at) == input);
             self.refine(&whole);

@@ -5,14 +5,15 @@ use std::{sync::Arc, time::Instant};
 use glam::DVec3;
 use surfel::{
     prepare::PreparedScene,
-    scene::{Camera, Encoding, Samples, Settings},
+    scene::{Encoding, Samples, Settings},
 };
 use winit::window::Window;
 
 use super::{
-    ViewArguments, anchor::Anchor, capture::Clipboard, document::Document, edits::Edits, files::Files,
-    gpu::Gpu, input::Input, keys::Comparing, loading::Loader, navigation::Navigation, on_device::OnDevice,
-    options::Options, pace::Pace, path::Path, picture::Use, steps::Steps, tidy::Tidies, ui::Ui, warm,
+    ViewArguments, ahead::Ahead, anchor::Anchor, capture::Clipboard, document::Document, edits::Edits, files::Files,
+    gpu::Gpu, input::Input, keys::Comparing, loading::Loader, meanwhile::Before, navigation::Navigation, on_device::OnDevice,
+    options::Options, pace::Pace, path::Path, picture::Use,
+    steps::Steps, tidy::Tidies, ui::Ui, warm,
     writing::Writing,
 };
 use crate::console;
@@ -22,6 +23,8 @@ pub struct Viewer {
     pub window: Arc<Window>,
     pub gpu: Gpu,
     pub loader: Loader,
+    /// Draws pictures of other settings before the window does, where that is of use.
+    pub ahead: Option<Ahead>,
     pub input: Input,
     pub files: Files,
     pub path: Path,
@@ -48,7 +51,7 @@ pub struct Viewer {
     /// The thing of the scene that keys change.
     pub thing: usize,
     /// What was drawn last.
-    pub drawn: Option<(Settings, Camera)>,
+    pub drawn: Option<Before>,
     /// The method that is compared with, and how, if it is.
     pub other: Settings,
     pub comparing: Option<Comparing>,
@@ -121,6 +124,7 @@ impl Viewer {
             encoding,
             options: Options::of(arguments),
             window,
+            ahead: Ahead::new(gpu.headless.device(), loader.proxy()),
             gpu,
             loader,
             ui,
@@ -196,8 +200,8 @@ impl Viewer {
     /// Closes the window; keeps what was compiled.
     pub fn close(mut self) {
         self.finish_writing();
-        let Self { gpu, loader, prepared, warm, .. } = self;
-        drop(loader);
+        let Self { gpu, loader, ahead, prepared, warm, .. } = self;
+        drop((loader, ahead));
         drop((prepared, warm));
         // A lost cache costs the next run some time, that is all.
         let _ = gpu.headless.renderer.shaders().save_cache();

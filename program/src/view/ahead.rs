@@ -1,0 +1,202 @@
+//! Pictures that nobody sees, drawn by a thread and a device of their own before the window draws with other settings: a driver that compiles a pipeline when it first runs, as those of CPUs do,
+//! holds up its queue for as long as that takes. What it has compiled it keeps on disk, where it finds it for the window's device within milliseconds.
+
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{Receiver, RecvTimeoutError, Sender, channel},
+    },
+    thread::JoinHandle,
+    time::Duration,
+};
+
+use surfel::{
+    Headless, Result,
+    renderer::Wanted,
+    scene::{Camera, Lod, Scene, Settings},
+    vk::{Device, Instance},
+};
+use winit::event_loop::EventLoopProxy;
+
+use super::{
+    edits::{Edits, part_of},
+    told::News,
+};
+
+/// The device is given back where nobody has asked for anything for so long.
+const IDLE: Duration = Duration::from_secs(3);
+
+/// Of a scene with more splats a part is drawn.
+const MOST_SPLATS: usize = 200_000;
+
+/// So many kinds of pictures are remembered.
+const MOST_KINDS: usize = 100;
+
+/// What decides which pipelines a picture has, but for the place of the camera, and for sizes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kind {
+    settings: Vec<Settings>,
+    is_light: bool,
+    is_parallel: bool,
+    edits: Edits,
+    has_levels: bool,
+    /// Which files they are of, by where their scene is in memory.
+    files: usize,
+}
+
+/// A picture, or several.
+pub struct Job {
+    pub scene: Arc<Scene>,
+    pub edits: Edits,
+    /// Levels of detail are made for moving pictures.
+    pub has_levels: bool,
+    pub camera: Camera,
+    pub settings: Vec<Settings>,
+    pub is_light: bool,
+}
+
+impl Job {
+    fn kind(&self) -> Kind {
+        let of = |settings: &Settings| Settings { size_px: [0; 2], lod: Lod::Auto, ..settings.clone() };
+        Kind {
+            settings: self.settings.iter().map(of).collect(),
+            is_light: self.is_light,
+            is_parallel: self.camera.orthographic_height.is_some(),
+            edits: self.edits.clone(),
+            has_levels: self.has_levels,
+            files: Arc::as_ptr(&self.scene).addr(),
+        }
+    }
+
+    /// All of the scene, or a part of one that is large, with all that decides about pipelines.
+    fn scene(&self) -> Scene {
+        let part = part_of(&self.scene, MOST_SPLATS);
+        let part = Scene {
+            storage: self.scene.storage,
+            budget: self.scene.budget,
+            numbered: self.scene.numbered,
+            hybrids: self.scene.hybrids.clone(),
+            levels: self.has_levels,
+            ..part
+        };
+        if self.edits.are_none() { part } else { self.edits.of(&part) }
+    }
+}
+
+/// The thread, as the window knows it.
+pub struct Ahead {
+    jobs: Option<Sender<Job>>,
+    thread: Option<JoinHandle<()>>,
+    is_closing: Arc<AtomicBool>,
+    /// Those that were asked for, and whether they are done; the newest last.
+    kinds: Vec<(Kind, bool)>,
+}
+
+impl Ahead {
+    /// For a device that compiles pipelines when they first run; `None` for others.
+    pub fn new(device: &Device, proxy: EventLoopProxy<News>) -> Option<Self> {
+        if !device.facts().limits.is_cpu {
+            return None;
+        }
+        let (jobs, received) = channel();
+        let is_closing = Arc::new(AtomicBool::new(false));
+        let worker = Worker {
+            instance: device.instance().clone(),
+            name: device.facts().name.clone(),
+            proxy,
+            is_closing: Arc::clone(&is_closing),
+        };
+        let thread = std::thread::spawn(move || worker.run(&received));
+        Some(Self { jobs: Some(jobs), thread: Some(thread), is_closing, kinds: Vec::new() })
+    }
+
+    /// Whether pipelines of such pictures have run, as far as is known; they are drawn where they have not. `is_new`: some of them were made just now.
+    pub fn is_ready(&mut self, job: Job, is_new: bool) -> bool {
+        let kind = job.kind();
+        if let Some((_, is_done)) = self.kinds.iter().find(|(known, _)| *known == kind) {
+            return *is_done;
+        }
+        let sent = is_new && self.jobs.as_ref().is_some_and(|jobs| jobs.send(job).is_ok());
+        if sent {
+            if self.kinds.len() >= MOST_KINDS {
+                self.kinds.remove(0);
+            }
+            self.kinds.push((kind, false));
+        }
+        !sent
+    }
+
+    /// The thread has drawn them.
+    pub fn is_done(&mut self, kind: &Kind) {
+        let kinds = self.kinds.iter_mut().filter(|(known, _)| known == kind);
+        kinds.for_each(|(_, is_done)| *is_done = true);
+    }
+}
+
+impl Drop for Ahead {
+    fn drop(&mut self) {
+        self.is_closing.store(true, Ordering::Release);
+        self.jobs = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+/// The thread, as it knows itself.
+struct Worker {
+    instance: Instance,
+    /// Of the device.
+    name: String,
+    proxy: EventLoopProxy<News>,
+    is_closing: Arc<AtomicBool>,
+}
+
+impl Worker {
+    fn run(&self, jobs: &Receiver<Job>) {
+        let (mut waiting, mut headless) = (Vec::new(), None);
+        loop {
+            waiting.extend(jobs.try_iter());
+            if self.is_closing.load(Ordering::Acquire) {
+                return;
+            }
+            // The newest is what the window waits for.
+            if let Some(job) = waiting.pop() {
+                let kind = job.kind();
+                // What is wrong with it the window tells, which draws it next.
+                let _ = self.draw(&mut headless, &job);
+                // Nobody hears it once the window is closed.
+                let _ = self.proxy.send_event(News::Ran(Box::new(kind)));
+                continue;
+            }
+            match jobs.recv_timeout(IDLE) {
+                Ok(job) => waiting.push(job),
+                Err(RecvTimeoutError::Disconnected) => return,
+                Err(RecvTimeoutError::Timeout) => {
+                    headless = None;
+                    match jobs.recv() {
+                        Ok(job) => waiting.push(job),
+                        Err(_) => return,
+                    }
+                }
+            }
+        }
+    }
+
+    fn draw(&self, headless: &mut Option<Headless>, job: &Job) -> Result<()> {
+        let headless = match headless {
+            Some(headless) => headless,
+            none => none.insert(Headless::on(Device::new(&self.instance, Some(&self.name))?, None)?),
+        };
+        let scene = headless.prepare(&job.scene(), &|_, _| {})?;
+        let wanted = Wanted { linear: job.is_light, ..Wanted::PICTURE };
+        for settings in &job.settings {
+            if self.is_closing.load(Ordering::Acquire) {
+                break;
+            }
+            headless.render(&scene, &job.camera, settings, wanted)?;
+        }
+        Ok(())
+    }
+}
