@@ -5,17 +5,16 @@ use std::{
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
-        mpsc::{Receiver, RecvTimeoutError, Sender, channel},
+        mpsc::{Receiver, Sender, channel},
     },
     thread::JoinHandle,
-    time::Duration,
 };
 
 use surfel::{
-    Headless, Result,
+    Headless, HeadlessOptions, Result,
     renderer::Wanted,
     scene::{Camera, Lod, Scene, Settings},
-    vk::{Device, Instance},
+    vk::Device,
 };
 use winit::event_loop::EventLoopProxy;
 
@@ -24,14 +23,8 @@ use super::{
     told::News,
 };
 
-/// The device is given back where nobody has asked for anything for so long.
-const IDLE: Duration = Duration::from_secs(3);
-
 /// Of a scene with more splats a part is drawn.
 const MOST_SPLATS: usize = 200_000;
-
-/// So many kinds of pictures are remembered.
-const MOST_KINDS: usize = 100;
 
 /// What decides which pipelines a picture has, but for the place of the camera, and for sizes.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +82,7 @@ pub struct Ahead {
     jobs: Option<Sender<Job>>,
     thread: Option<JoinHandle<()>>,
     is_closing: Arc<AtomicBool>,
-    /// Those that were asked for, and whether they are done; the newest last.
+    /// Those that were asked for since [`Self::begin`] or are not done yet, and whether they are.
     kinds: Vec<(Kind, bool)>,
 }
 
@@ -101,17 +94,13 @@ impl Ahead {
         }
         let (jobs, received) = channel();
         let is_closing = Arc::new(AtomicBool::new(false));
-        let worker = Worker {
-            instance: device.instance().clone(),
-            name: device.facts().name.clone(),
-            proxy,
-            is_closing: Arc::clone(&is_closing),
-        };
+        let worker =
+            Worker { device: device.facts().name.clone(), proxy, is_closing: Arc::clone(&is_closing) };
         let thread = std::thread::spawn(move || worker.run(&received));
         Some(Self { jobs: Some(jobs), thread: Some(thread), is_closing, kinds: Vec::new() })
     }
 
-    /// Whether pipelines of such pictures have run, as far as is known; they are drawn where they have not. `is_new`: some of them were made just now.
+    /// Whether pipelines of such pictures have run, as far as is known; they are drawn, once, where some of them were made just now: `is_new`.
     pub fn is_ready(&mut self, job: Job, is_new: bool) -> bool {
         let kind = job.kind();
         if let Some((_, is_done)) = self.kinds.iter().find(|(known, _)| *known == kind) {
@@ -119,12 +108,14 @@ impl Ahead {
         }
         let sent = is_new && self.jobs.as_ref().is_some_and(|jobs| jobs.send(job).is_ok());
         if sent {
-            if self.kinds.len() >= MOST_KINDS {
-                self.kinds.remove(0);
-            }
             self.kinds.push((kind, false));
         }
         !sent
+    }
+
+    /// Other pictures are to be drawn, or the same ones of other sizes, which may have other pipelines.
+    pub fn begin(&mut self) {
+        self.kinds.retain(|(_, is_done)| !is_done);
     }
 
     /// The thread has drawn them.
@@ -146,49 +137,37 @@ impl Drop for Ahead {
 
 /// The thread, as it knows itself.
 struct Worker {
-    instance: Instance,
-    /// Of the device.
-    name: String,
+    /// Its name.
+    device: String,
     proxy: EventLoopProxy<News>,
     is_closing: Arc<AtomicBool>,
 }
 
 impl Worker {
     fn run(&self, jobs: &Receiver<Job>) {
-        let (mut waiting, mut headless) = (Vec::new(), None);
-        loop {
-            waiting.extend(jobs.try_iter());
-            if self.is_closing.load(Ordering::Acquire) {
-                return;
-            }
+        let mut waiting = Vec::new();
+        while let Ok(job) = jobs.recv() {
+            waiting.push(job);
             // The newest is what the window waits for.
-            if let Some(job) = waiting.pop() {
-                let kind = job.kind();
-                // What is wrong with it the window tells, which draws it next.
-                let _ = self.draw(&mut headless, &job);
-                // Nobody hears it once the window is closed.
-                let _ = self.proxy.send_event(News::Ran(Box::new(kind)));
-                continue;
-            }
-            match jobs.recv_timeout(IDLE) {
-                Ok(job) => waiting.push(job),
-                Err(RecvTimeoutError::Disconnected) => return,
-                Err(RecvTimeoutError::Timeout) => {
-                    headless = None;
-                    match jobs.recv() {
-                        Ok(job) => waiting.push(job),
-                        Err(_) => return,
-                    }
+            while let Some(job) = {
+                waiting.extend(jobs.try_iter());
+                waiting.pop()
+            } {
+                if self.is_closing.load(Ordering::Acquire) {
+                    return;
                 }
+                // What is wrong with it the window tells, which draws it next.
+                let _ = self.draw(&job);
+                // Nobody hears it once the window is closed.
+                let _ = self.proxy.send_event(News::Ran(Box::new(job.kind())));
             }
         }
     }
 
-    fn draw(&self, headless: &mut Option<Headless>, job: &Job) -> Result<()> {
-        let headless = match headless {
-            Some(headless) => headless,
-            none => none.insert(Headless::on(Device::new(&self.instance, Some(&self.name))?, None)?),
-        };
+    /// Mesa writes what it has compiled by a thread of the least priority. An instance waits for that thread where it is destroyed, so that each job has its own.
+    fn draw(&self, job: &Job) -> Result<()> {
+        let device = Some(self.device.clone());
+        let mut headless = Headless::new(&HeadlessOptions { device, ..HeadlessOptions::default() })?;
         let scene = headless.prepare(&job.scene(), &|_, _| {})?;
         let wanted = Wanted { linear: job.is_light, ..Wanted::PICTURE };
         for settings in &job.settings {

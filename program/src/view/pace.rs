@@ -65,6 +65,23 @@ impl Pace {
         }
     }
 
+    /// This one, and those that it may come to next: coarser, and finer.
+    pub fn and_next(&self) -> impl Iterator<Item = Self> + '_ {
+        let steps = [Some(self.step), Some(self.step + 1), self.step.checked_sub(1)];
+        let steps = steps.into_iter().flatten().filter(|step| *step < STEPS.len());
+        steps.map(|step| Self { step, ..self.clone() })
+    }
+
+    /// A picture has moved.
+    pub fn has_moved(&self) -> bool {
+        self.has_moved
+    }
+
+    /// The number of its step; of the finest, 0.
+    pub fn step(&self) -> usize {
+        self.step
+    }
+
     /// Whether a moving picture is as fine as one at rest.
     pub fn is_finest(&self) -> bool {
         self.step == 0

@@ -41,7 +41,7 @@ impl Viewer {
         }
         self.lost = Some(now);
         self.scene_number += 1;
-        (self.prepared, self.warm, self.anchor) = (None, None, Anchor::default());
+        (self.prepared, self.coming, self.warm, self.anchor) = (None, None, None, Anchor::default());
         self.gpu = open_again(&self.window, &mut self.gpu, &self.options.device)?;
         let reading = self.ui.reading.take();
         self.ui = Ui::new(self.window.scale_factor() as f32);

@@ -14,7 +14,7 @@ use surfel::{
 use super::{
     frame_desc::{Ends, SceneView},
     picture::Use,
-    refine::Refinement,
+    refine::{Hidden, Refinement},
     viewer::Viewer,
     warm,
 };
@@ -36,6 +36,8 @@ pub struct Choice {
     pub input: Option<Instant>,
     /// The scene of which it is.
     pub scene_number: u64,
+    /// It is drawn for its pipelines, and not shown.
+    pub hidden: Option<Hidden>,
 }
 
 /// A choice of which some steps are drawn.
@@ -103,13 +105,18 @@ impl Viewer {
             self.tell(&format!("no comparison: {error}"));
         }
         let wants = (self.is_stale || is_coarse || refines) && !begins_again;
+        if !wants && !is_moving && refinement.is_none() && self.can_refine()? {
+            if let Some((hidden, settings)) = self.next_hidden(whole) {
+                let choice = self.choice_of(vec![(Use::Moving, settings)], camera, "ahead");
+                return Ok(Choice { hidden: Some(hidden), ..choice });
+            }
+            self.refines = None;
+        }
         let mut pictures = Vec::new();
         if let Some(settings) = settings.filter(|_| wants && self.prepared.is_some()) {
-            let (size_px, lod) = (settings.size_px, settings.lod);
+            let other = self.comparing.map(|_| (Use::Other, self.other_of(&settings)));
             pictures.push((which, settings));
-            if self.comparing.is_some() {
-                pictures.push((Use::Other, Settings { size_px, lod, ..self.other.clone() }));
-            }
+            pictures.extend(other);
         }
         let what = match which {
             Use::Moving => "moving",
@@ -133,7 +140,17 @@ impl Viewer {
         }
         let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
         let scene_number = self.scene_number;
-        Choice { pictures, camera, sample: None, is_light, profile, what, input: None, scene_number }
+        Choice {
+            pictures,
+            camera,
+            sample: None,
+            is_light,
+            profile,
+            what,
+            input: None,
+            scene_number,
+            hidden: None,
+        }
     }
 
     /// Steps of it are drawn, and others are to come. `is_step`: it was so before.

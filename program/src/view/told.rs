@@ -14,6 +14,8 @@ pub enum News {
     Prepared(Box<Prepared>),
     /// Bytes of a job are to be submitted; the thread waits for the answer, and keeps what they go to until then.
     Upload(Staging, u64, SyncSender<Result<()>>),
+    /// A picture is written, or not.
+    Written,
     /// Pipelines of such pictures have run on another device.
     Ran(Box<Kind>),
     /// Shaders were compiled anew, so many; or what is wrong with them.

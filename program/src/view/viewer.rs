@@ -10,11 +10,30 @@ use surfel::{
 use winit::window::Window;
 
 use super::{
-    ViewArguments, ahead::Ahead, anchor::Anchor, capture::Clipboard, document::Document, edits::Edits, files::Files,
-    gpu::Gpu, input::Input, keys::Comparing, loading::Loader, meanwhile::Before, navigation::Navigation, on_device::OnDevice,
-    options::Options, pace::Pace, path::Path, picture::Use,
-    steps::Steps, tidy::Tidies, ui::Ui, warm,
-    writing::Writing,
+    ViewArguments,
+    ahead::Ahead,
+    anchor::Anchor,
+    capture::Clipboard,
+    document::Document,
+    edits::Edits,
+    files::Files,
+    gpu::Gpu,
+    input::Input,
+    keys::Comparing,
+    loading::Loader,
+    meanwhile::Before,
+    navigation::Navigation,
+    on_device::OnDevice,
+    options::Options,
+    pace::Pace,
+    path::Path,
+    picture::Use,
+    refine::Hidden,
+    steps::Steps,
+    tidy::Tidies,
+    ui::Ui,
+    warm,
+    writing::{Saving, Writing},
 };
 use crate::console;
 
@@ -37,6 +56,8 @@ pub struct Viewer {
     pub document: Option<Document>,
     /// The scene on the device.
     pub prepared: Option<OnDevice>,
+    /// Another one, for which pipelines are made.
+    pub coming: Option<OnDevice>,
     /// What is drawn before there is a scene, and not shown.
     pub warm: Option<PreparedScene>,
     pub navigation: Option<Navigation>,
@@ -73,10 +94,14 @@ pub struct Viewer {
     pub is_stale: bool,
     /// The picture may need pipelines that are not there yet.
     pub is_unsure: bool,
+    /// What was drawn for its pipelines alone.
+    pub hidden: Vec<Hidden>,
     /// Pictures that are drawn in steps.
     pub steps: Option<Steps>,
     /// A picture that is being written.
     pub writing: Option<Writing>,
+    /// One that a thread writes.
+    pub saving: Option<Saving>,
     /// Counts the changes of what is on the device.
     pub scene_number: u64,
     /// The picture that is shown.
@@ -138,6 +163,7 @@ impl Viewer {
             reads_first: true,
             document: None,
             prepared: None,
+            coming: None,
             warm,
             navigation: None,
             edits: Edits { things: Vec::new(), splat_scale: 1.0 },
@@ -153,6 +179,7 @@ impl Viewer {
             input_at: None,
             is_stale: true,
             is_unsure: true,
+            hidden: Vec::new(),
             refined: 0,
             is_hasty: false,
             splats_drawn: None,
@@ -162,6 +189,7 @@ impl Viewer {
             tidies: Tidies::default(),
             steps: None,
             writing: None,
+            saving: None,
             scene_number: 0,
             shown: Use::Still,
             ends: false,
@@ -185,7 +213,9 @@ impl Viewer {
 
     /// Something that the picture shows has changed, other than by a camera that moves on.
     pub fn changed(&mut self) {
-        (self.is_stale, self.is_unsure) = (true, true);
+        self.is_stale = true;
+        self.hidden.clear();
+        self.begin_anew();
         self.anchor.forget();
         self.window.request_redraw();
     }
@@ -200,9 +230,9 @@ impl Viewer {
     /// Closes the window; keeps what was compiled.
     pub fn close(mut self) {
         self.finish_writing();
-        let Self { gpu, loader, ahead, prepared, warm, .. } = self;
+        let Self { gpu, loader, ahead, prepared, coming, warm, .. } = self;
         drop((loader, ahead));
-        drop((prepared, warm));
+        drop((prepared, coming, warm));
         // A lost cache costs the next run some time, that is all.
         let _ = gpu.headless.renderer.shaders().save_cache();
     }

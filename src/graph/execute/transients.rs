@@ -206,7 +206,8 @@ mod tests {
     #[test]
     fn no_side_is_a_power_of_two_and_half_of_the_rows_stays_half() {
         for side in 1..5000 {
-            let vk::Extent2D { width, height } = one_shape(vk::Extent2D { width: side, height: 2 * side }, 1 << 14);
+            let vk::Extent2D { width, height } =
+                one_shape(vk::Extent2D { width: side, height: 2 * side }, 1 << 14);
             assert!(!width.is_power_of_two() && !height.is_power_of_two());
             assert!((side..=side + 2).contains(&width) && height / 2 == side);
         }
