@@ -104,7 +104,8 @@ impl Ahead {
     pub fn is_ready(&mut self, job: Job, is_new: bool) -> bool {
         let kind = job.kind();
         if let Some((_, is_done)) = self.kinds.iter().find(|(known, _)| *known == kind) {
-            return *is_done;
+            // A thread that is gone answers nothing any more.
+            return *is_done || self.thread.as_ref().is_none_or(JoinHandle::is_finished);
         }
         let sent = is_new && self.jobs.as_ref().is_some_and(|jobs| jobs.send(job).is_ok());
         if sent {
