@@ -112,12 +112,9 @@ fn scale(splats: &mut Splats, by: f32) {
     }
 }
 
-/// So many splats are a part of a scene.
-const PART_SPLATS: usize = 60_000;
-
-/// Some splats of each object, as much larger as they are fewer; and all polygons.
-pub fn part_of(scene: &Scene) -> Scene {
-    let step = scene.splat_count().div_ceil(PART_SPLATS).max(1);
+/// Some splats of each object, as much larger as they are fewer, so many in all; and all polygons.
+pub fn part_of(scene: &Scene, splats: usize) -> Scene {
+    let step = scene.splat_count().div_ceil(splats).max(1);
     let objects = scene.objects.iter().map(|object| {
         let mut splats = object.splats.picked((0..object.splats.len()).step_by(step));
         scale(&mut splats, (step as f32).sqrt());

@@ -31,6 +31,8 @@ use crate::{
 
 /// A part of a scene is shown first where it has more splats.
 const PART_FROM: usize = 200_000;
+/// So many are a part of it.
+const PART_SPLATS: usize = 60_000;
 /// Levels of detail are made of more splats.
 const LEVELS_FROM: usize = 300_000;
 
@@ -41,6 +43,7 @@ enum Job {
 
 /// The thread, as the window knows it.
 pub struct Loader {
+    proxy: EventLoopProxy<News>,
     jobs: Option<Sender<Job>>,
     thread: Option<JoinHandle<()>>,
     newest: Arc<AtomicU64>,
@@ -82,7 +85,7 @@ impl Loader {
         let [newest, newest_files] = [(); 2].map(|()| Arc::new(AtomicU64::new(0)));
         let (is_reading, is_closing) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
         let worker = Worker {
-            proxy,
+            proxy: proxy.clone(),
             newest: Arc::clone(&newest),
             newest_files: Arc::clone(&newest_files),
             is_reading: Arc::clone(&is_reading),
@@ -92,7 +95,12 @@ impl Loader {
             bars: Bars::new(),
         };
         let thread = std::thread::spawn(move || worker.run(&received));
-        Self { jobs: Some(jobs), thread: Some(thread), newest, newest_files, is_reading, is_closing }
+        Self { proxy, jobs: Some(jobs), thread: Some(thread), newest, newest_files, is_reading, is_closing }
+    }
+
+    /// By which threads tell the window.
+    pub fn proxy(&self) -> EventLoopProxy<News> {
+        self.proxy.clone()
     }
 
     /// Reads files; the camera is for a picture of this size.
@@ -230,7 +238,7 @@ impl Worker {
             let part;
             let scene = match step {
                 Step::Part => {
-                    part = part_of(scene);
+                    part = part_of(scene, PART_SPLATS);
                     &part
                 }
                 Step::Leveled if !has_levels => {

@@ -1,13 +1,15 @@
 //! `surfel view`: a scene in a window. One file a part: what keys do (`keys`), how the camera moves (`navigation`), how coarse a moving
-//! picture is (`pace`), the thread that reads files (`loading`, `told`), the window's device (`device`, `gpu` and the files it names; `warm`), what lies over the
-//! picture (`ui`, `panel`, `state`, `popups`, `compared`), and the window itself (`app`, `viewer`, `news`, `redraw`, `steps`, `refine`, `recover`, `input`, `files`, `changes`, `reasons`, `things`, `picking`, `anchor`, `path`, `capture`).
+//! picture is (`pace`), the thread that reads files (`loading`, `told`), the window's device (`device`, `gpu` and the files it names; `warm`, `ahead`), what lies over the
+//! picture (`ui`, `panel`, `state`, `popups`, `compared`), and the window itself (`app`, `viewer`, `news`, `redraw`, `steps`, `meanwhile`, `costs`, `refine`, `recover`, `input`, `files`, `changes`, `reasons`, `things`, `picking`, `anchor`, `path`, `capture`).
 
+mod ahead;
 mod anchor;
 mod app;
 mod bars;
 mod capture;
 mod changes;
 mod compared;
+mod costs;
 mod cuts;
 mod device;
 mod display;
@@ -24,6 +26,7 @@ mod keys;
 #[cfg(feature = "live-shaders")]
 mod live;
 mod loading;
+mod meanwhile;
 mod memory;
 mod navigation;
 mod news;

@@ -19,7 +19,7 @@ use super::{
 use crate::outputs::with_models;
 
 impl Viewer {
-    /// News of the thread that reads files.
+    /// News of a thread.
     ///
     /// # Errors
     /// Of the first files, or the device.
@@ -27,10 +27,12 @@ impl Viewer {
         match news {
             News::Opened(document) => self.opened(*document),
             News::Prepared(prepared) if self.loader.is_newest(prepared.job) => {
-                self.scene_number += 1;
-                self.prepared = Some(OnDevice::Whole(Box::new(prepared.scene), prepared.step));
+                self.coming = Some(OnDevice::Whole(Box::new(prepared.scene), prepared.step));
                 self.prepares = !prepared.is_last;
-                self.changed();
+                if self.prepared.is_none() {
+                    self.take_scene();
+                }
+                self.window.request_redraw();
                 Ok(())
             }
             News::Prepared(_) => Ok(()),
@@ -47,6 +49,17 @@ impl Viewer {
                 });
                 // A thread that is gone needs no answer.
                 let _ = answer.send(done);
+                Ok(())
+            }
+            News::Written => {
+                self.end_saving();
+                Ok(())
+            }
+            News::Ran(kind) => {
+                if let Some(ahead) = &mut self.ahead {
+                    ahead.is_done(&kind);
+                }
+                self.window.request_redraw();
                 Ok(())
             }
             #[cfg(feature = "live-shaders")]
@@ -109,8 +122,9 @@ impl Viewer {
         self.document = Some(document);
         let is_other = !std::mem::take(&mut self.keeps_camera);
         // Pages of what the file was.
-        self.scene_number += 1;
-        self.prepared.take_if(|prepared| prepared.pages().is_some());
+        if self.prepared.take_if(|prepared| prepared.pages().is_some()).is_some() {
+            self.scene_number += 1;
+        }
         self.prepare(is_other);
         self.changed();
         // Those that came while the first were read.
@@ -122,6 +136,7 @@ impl Viewer {
     /// than nothing.
     pub fn prepare(&mut self, is_other: bool) {
         let Some(document) = &self.document else { return };
+        self.coming = None;
         let Some(path) = &document.paged else {
             let device = self.gpu.headless.device().clone();
             self.prepares = true;

@@ -17,8 +17,10 @@ const REST: Duration = Duration::from_millis(25);
 const LONG_SECS: f64 = 1.0;
 const REST_OF_LONG: Duration = Duration::from_millis(500);
 
-/// The picture's side over the window's, and the size up to which splats are drawn as one, in pixels of the picture. From fine to coarse, each
-/// about two thirds of the cost of the one before.
+/// What a step costs of the one before, about.
+const STEP_COST: f64 = 2.0 / 3.0;
+
+/// The picture's side over the window's, and the size up to which splats are drawn as one, in pixels of the picture. From fine to coarse.
 const STEPS: &[(f64, f64)] = &[
     (1.0, 0.0),
     (1.0, 0.75),
@@ -42,6 +44,8 @@ pub struct Pace {
     whole_secs: f64,
     /// What it would cost by the last frame that moved.
     expected_secs: f64,
+    /// There was one.
+    has_moved: bool,
 }
 
 impl Pace {
@@ -59,6 +63,23 @@ impl Pace {
             _ if lod_px > 0.0 => Lod::Px(lod_px),
             other => other,
         }
+    }
+
+    /// This one, and those that it may come to next: coarser, and finer.
+    pub fn and_next(&self) -> impl Iterator<Item = Self> + '_ {
+        let steps = [Some(self.step), Some(self.step + 1), self.step.checked_sub(1)];
+        let steps = steps.into_iter().flatten().filter(|step| *step < STEPS.len());
+        steps.map(|step| Self { step, ..self.clone() })
+    }
+
+    /// A picture has moved.
+    pub fn has_moved(&self) -> bool {
+        self.has_moved
+    }
+
+    /// The number of its step; of the finest, 0.
+    pub fn step(&self) -> usize {
+        self.step
     }
 
     /// Whether a moving picture is as fine as one at rest.
@@ -81,13 +102,18 @@ impl Pace {
         if self.waits() { REST_OF_LONG } else { REST }
     }
 
-    /// Learns what all of the picture has cost.
+    /// Learns what all of the picture has cost. Where none has moved yet, one that does begins as coarse as that lets expect: no frame of a hand is spent on finding out.
     pub fn learn_whole(&mut self, secs: f64) {
         (self.whole_secs, self.expected_secs) = (secs, secs);
+        if !self.has_moved {
+            let steps = (secs / GOAL_SECS).max(1.0).ln() / STEP_COST.recip().ln();
+            self.step = (steps.ceil() as usize).min(STEPS.len() - 1);
+        }
     }
 
     /// Learns what a moving frame has cost. `compiles`: pipelines were made for it, so that the next one may cost far less.
     pub fn learn(&mut self, secs: f64, compiles: bool) {
+        self.has_moved = true;
         let (scale, _) = STEPS[self.step];
         if !compiles {
             self.expected_secs = secs / (scale * scale);
@@ -132,6 +158,21 @@ mod tests {
             assert!(!pace.is_finest() && secs < 1.15 * GOAL_SECS, "{full_secs}: {pace:?}");
         }
         assert_eq!(settled(1e9).size_px([300, 1]), [75, 1]);
+    }
+
+    #[test]
+    fn the_first_frame_that_moves_is_as_coarse_as_the_picture_at_rest_lets_expect() {
+        let first = |whole_secs| {
+            let mut pace = Pace::default();
+            pace.learn_whole(whole_secs);
+            pace.step
+        };
+        assert_eq!([0.01, 0.039, 0.05, 0.27, 100.0].map(first), [0, 0, 1, 5, STEPS.len() - 1]);
+        // After that, frames that move tell.
+        let mut pace = Pace::default();
+        pace.learn(0.01, false);
+        pace.learn_whole(0.27);
+        assert!(pace.is_finest());
     }
 
     #[test]

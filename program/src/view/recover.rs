@@ -7,6 +7,7 @@ use surfel::{Error, ErrorKind, Result};
 use super::{
     anchor::Anchor,
     device::{is_device_lost, open_again},
+    meanwhile::Before,
     ui::Ui,
     viewer::Viewer,
 };
@@ -22,7 +23,9 @@ impl Viewer {
     pub fn recover(&mut self, error: Error) -> Result<()> {
         self.steps = None;
         // Methods that a camera rules out, and cameras beyond what 32 bits tell apart.
-        if let (ErrorKind::Option { .. }, Some((settings, camera))) = (error.kind(), self.drawn.take()) {
+        if let (ErrorKind::Option { .. }, Some(Before { settings, camera, .. })) =
+            (error.kind(), self.drawn.take())
+        {
             self.tell(&error.to_string());
             self.settings = settings;
             if let Some(navigation) = &mut self.navigation {
@@ -38,7 +41,7 @@ impl Viewer {
         }
         self.lost = Some(now);
         self.scene_number += 1;
-        (self.prepared, self.warm, self.anchor) = (None, None, Anchor::default());
+        (self.prepared, self.coming, self.warm, self.anchor) = (None, None, None, Anchor::default());
         self.gpu = open_again(&self.window, &mut self.gpu, &self.options.device)?;
         let reading = self.ui.reading.take();
         self.ui = Ui::new(self.window.scale_factor() as f32);

@@ -9,23 +9,22 @@ use surfel::{
 };
 
 use super::{
+    costs::COST,
     device::is_device_lost,
     document::Document,
     frame_desc::{Drawn, FrameDesc},
     keys::Comparing,
+    meanwhile::Before,
     on_device::{OnDevice, Paged},
     overlay::OverlayFrame,
+    pace::Pace,
     picture::Use,
-    printed,
     show::{ShowDesc, Shown},
     tidy::Tidies,
     told::Step,
     viewer::Viewer,
 };
-use crate::console;
 
-/// How soon the cost of a frame is looked for again that is not done.
-const COST: Duration = Duration::from_millis(10);
 /// How soon pages are looked for again.
 const PAGES: Duration = Duration::from_millis(15);
 
@@ -121,13 +120,18 @@ impl Viewer {
             Drawn::Shown => {
                 if let (Some(which), Some(camera)) = (which, self.camera()) {
                     self.shown = which;
-                    // What has changed since its first step is drawn next.
-                    if !was_step {
-                        self.is_stale = false;
+                    match &mut self.drawn {
+                        // What has changed since its first step is drawn next.
+                        Some(_) if was_step => {}
+                        Some(drawn) if self.is_unsure => drawn.camera = camera,
+                        drawn => {
+                            let other = self.comparing.map(|_| self.other.clone());
+                            let (settings, encoding) = (self.settings.clone(), self.encoding);
+                            let scene_number = self.scene_number;
+                            *drawn = Some(Before { settings, camera, encoding, scene_number, other });
+                        }
                     }
-                    if !was_step || self.drawn.is_none() {
-                        self.drawn = Some((self.settings.clone(), camera));
-                    }
+                    self.is_stale &= was_step || self.is_unsure;
                 }
                 if self.input.flies() || self.path.plays() {
                     self.window.request_redraw();
@@ -141,27 +145,37 @@ impl Viewer {
     fn draw(&mut self, is_moving: bool, overlay: Option<&OverlayFrame>) -> Result<(Drawn, Option<Use>)> {
         let window_px = self.window_px();
         let whole = self.whole();
+        if self.steps.is_none() {
+            self.take_scene();
+        }
         let goes_on = self.steps.take().filter(|steps| steps.choice.scene_number == self.scene_number);
         let is_step = goes_on.is_some();
         let mut choice = match goes_on {
             Some(steps) => steps.choice,
             None => self.choose(is_moving, &whole)?,
         };
-        let scene = self.prepared.as_ref().map(OnDevice::scene);
-        let mut views = scene.or(self.warm.as_ref()).map_or(Vec::new(), |scene| choice.views(scene));
-        // The window goes on with the picture that is there until the pipelines of another are.
-        let is_asked = !views.is_empty();
-        if self.is_unsure && is_asked && !is_step {
-            self.is_unsure = !self.gpu.make_pipelines(&views)?;
+        let scene = self.prepared.as_ref().map(OnDevice::scene).or(self.warm.as_ref());
+        // The window goes on with the settings of before until the pipelines of others are there. Where pipelines run on another device first, a camera that comes nearer waits for its own, too.
+        let is_asked = scene.is_some() && !choice.pictures.is_empty();
+        if (self.is_unsure || self.ahead.is_some()) && is_asked && !is_step {
+            if !self.is_unsure {
+                self.begin_anew();
+            }
+            self.is_unsure = !self.has_pipelines(&choice, &whole, None)?;
             if self.is_unsure {
-                views.clear();
-                self.window.request_redraw();
+                choice.pictures = Vec::new();
+                if let Some(before) = self.as_before() {
+                    choice = before;
+                }
             }
         }
+        let scene = self.prepared.as_ref().map(OnDevice::scene).or(self.warm.as_ref());
+        let views = scene.map_or(Vec::new(), |scene| choice.views(scene));
         if self.ui.set_compiling(is_step || self.is_unsure && is_asked) {
             self.window.request_redraw();
         }
-        let drawn = views.first().map(|(which, _)| *which).filter(|which| *which != Use::Other);
+        let drawn = views.first().map(|(which, _)| *which);
+        let drawn = drawn.filter(|which| *which != Use::Other && choice.hidden.is_none());
         let comparing = self.comparing.filter(|_| drawn.is_some() || self.gpu.has_picture(Use::Other));
         let first = drawn.unwrap_or(self.shown);
         let (pictures, shown) = match comparing {
@@ -174,7 +188,7 @@ impl Viewer {
         let (light, background) = (is_light.then_some(self.encoding), self.settings.background);
         let show = ShowDesc { window_px, light, background, shown };
         let shown = self.prepared.is_some().then_some((pictures, show));
-        let (what, input) = (choice.what, choice.input);
+        let (what, input, hidden) = (choice.what, choice.input, choice.hidden);
         let desc = FrameDesc { views: &views, shown, before: self.shown, overlay, what, input };
         let done = self.gpu.draw(&desc)?;
         let (finished, asked) = (self.gpu.finished(), views.len());
@@ -188,10 +202,14 @@ impl Viewer {
         } else if is_step {
             self.window.request_redraw();
         }
-        if asked > 0 && finished == asked && self.prepared.is_none() {
-            self.warm = None;
+        if asked > 0 && finished == asked {
+            self.hidden.extend(hidden);
+            if hidden.is_some() {
+                self.refines = self.next_hidden(&whole).map(|_| Instant::now());
+            }
+            self.warm.take_if(|_| self.prepared.is_none());
         }
-        if done == Drawn::Shown && drawn == Some(Use::Still) && self.prepared.is_some() {
+        if done == Drawn::Shown && drawn == Some(Use::Still) && self.prepared.is_some() && !self.is_unsure {
             // What comes after the whole picture answers to something else.
             self.input_at.take_if(|at| what == "whole" && !is_moving && Some(*at) == input);
             self.refine(&whole);
@@ -222,49 +240,16 @@ impl Viewer {
         Ok(drawn.into_iter().next().flatten())
     }
 
-    /// Learns what frames have cost.
-    fn learn(&mut self, is_moving: bool) -> Result<()> {
-        self.looks_for_costs = None;
-        // With what it takes to show the picture, too.
-        let period = self.gpu.take_period().filter(|_| is_moving && self.was_moving);
-        self.was_moving = is_moving;
-        for which in Use::ALL {
-            let (costs, all) = self.gpu.take_costs(which)?;
-            for cost in costs {
-                if self.options.prints_frames {
-                    console::print(&printed::frame(&cost))?;
-                }
-                if which == Use::Other {
-                    continue;
-                }
-                // A picture at rest tells of moving ones where they are the same.
-                if is_moving && (which == Use::Moving || self.pace.is_finest()) {
-                    let secs = period.map_or(cost.secs, |period| period.as_secs_f64());
-                    self.pace.learn(secs, cost.compiles);
-                }
-                if cost.what == "whole" && !cost.compiles {
-                    self.pace.learn_whole(cost.secs);
-                }
-                if cost.what != "step" {
-                    self.ui.history.push(&cost);
-                }
-            }
-            if !all && self.shows_costs() {
-                self.looks_for_costs = Some(Instant::now() + COST);
-            }
-        }
-        Ok(())
-    }
-
-    fn shows_costs(&self) -> bool {
-        self.ui.shows_times() || self.options.prints_frames
-    }
-
     /// As coarse as a moving picture is.
     pub fn coarse(&self, whole: &Settings) -> Settings {
+        self.coarse_by(&self.pace, whole)
+    }
+
+    /// The same, by another pace.
+    pub fn coarse_by(&self, pace: &Pace, whole: &Settings) -> Settings {
         let has_levels = self.prepared.as_ref().is_some_and(|prepared| prepared.step() == Step::Leveled);
-        let lod = if has_levels { self.pace.lod(whole.lod) } else { whole.lod };
-        Settings { size_px: self.pace.size_px(whole.size_px), lod, ..whole.clone() }
+        let lod = if has_levels { pace.lod(whole.lod) } else { whole.lod };
+        Settings { size_px: pace.size_px(whole.size_px), lod, ..whole.clone() }
     }
 
     /// As all of it is drawn: levels of detail that were made for moving pictures are for those alone.

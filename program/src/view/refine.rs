@@ -29,6 +29,13 @@ pub enum Refinement {
     Sample(usize, Samples, Edges),
 }
 
+/// A picture that nobody sees: one that moves, of a step of the pace, or [`Refinement::Leveled`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hidden {
+    Moving(usize),
+    Leveled,
+}
+
 /// The steps of a picture; of one sample that is the whole itself.
 fn steps(is_leveled: bool, samples: Samples, edges: Edges) -> impl Iterator<Item = Refinement> {
     let several = if samples.0 > 1 { samples.0 as usize } else { 0 };
@@ -84,13 +91,7 @@ impl Viewer {
         let sampled = self.comparing.is_none().then(|| self.sampled(whole));
         let (samples, edges) =
             sampled.map_or((Samples(1), whole.edges), |sampled| (sampled.samples, sampled.edges));
-        let has_levels = self.prepared.as_ref().is_some_and(|prepared| prepared.step() == Step::Leveled);
-        let is_leveled = has_levels
-            && self.settings.lod == Lod::Auto
-            && whole.lod != Lod::Auto
-            && self.comparing.is_none()
-            && self.is_hasty;
-        steps(is_leveled, samples, edges).nth(self.refined)
+        steps(self.has_leveled(whole) && self.is_hasty, samples, edges).nth(self.refined)
     }
 
     /// Counts the splats that the picture at rest is made of, for the panel, by drawing it once more; 0 where a method does not list them.
@@ -110,7 +111,29 @@ impl Viewer {
     /// A step is drawn: the next one comes once the device is done with it.
     pub fn refine(&mut self, whole: &Settings) {
         self.refined += 1;
-        self.refines = self.next_refinement(whole).map(|_| Instant::now() + LOOK);
+        let goes_on = self.next_refinement(whole).is_some() || self.next_hidden(whole).is_some();
+        self.refines = goes_on.then(|| Instant::now() + LOOK);
+    }
+
+    /// A picture that is to be drawn once and that nobody sees, if one is, so that the first ones of a hand, and the first when it rests, find pipelines that have run: of other sizes of pictures
+    /// and splats tiles have other sizes, and these have pipelines of their own.
+    pub fn next_hidden(&self, whole: &Settings) -> Option<(Hidden, Settings)> {
+        let is_whole = self.prepared.as_ref().is_some_and(|prepared| prepared.pages().is_none());
+        if !is_whole || self.pace.is_finest() || self.comparing.is_some() {
+            return None;
+        }
+        let paces = self.pace.and_next().filter(|pace| !pace.is_finest());
+        let paces = paces.map(|pace| (Hidden::Moving(pace.step()), self.coarse_by(&pace, whole)));
+        let is_leveled = self.has_leveled(whole) && self.pace.is_slow();
+        let leveled = Settings { lod: Lod::Px(LEVELED_PX), ..whole.clone() };
+        let mut all = paces.chain(is_leveled.then_some((Hidden::Leveled, leveled)));
+        all.find(|(hidden, _)| !self.hidden.contains(hidden))
+    }
+
+    /// Whether levels of detail may come before all of it.
+    fn has_leveled(&self, whole: &Settings) -> bool {
+        let has_levels = self.prepared.as_ref().is_some_and(|prepared| prepared.step() == Step::Leveled);
+        has_levels && self.settings.lod == Lod::Auto && whole.lod != Lod::Auto && self.comparing.is_none()
     }
 
     /// Whether that is so now; looked at again where it is not.

@@ -14,7 +14,7 @@ use surfel::{
 use super::{
     frame_desc::{Ends, SceneView},
     picture::Use,
-    refine::Refinement,
+    refine::{Hidden, Refinement},
     viewer::Viewer,
     warm,
 };
@@ -26,16 +26,18 @@ const LOOK: Duration = Duration::from_millis(3);
 pub struct Choice {
     /// Each for its use.
     pub pictures: Vec<(Use, Settings)>,
-    camera: Option<Camera>,
-    sample: Option<Ends>,
-    is_light: bool,
-    profile: Option<Profile>,
+    pub camera: Option<Camera>,
+    pub sample: Option<Ends>,
+    pub is_light: bool,
+    pub profile: Option<Profile>,
     /// What the first is to the picture at rest, in a word.
     pub what: &'static str,
     /// The input that it answers to.
     pub input: Option<Instant>,
     /// The scene of which it is.
     pub scene_number: u64,
+    /// It is drawn for its pipelines, and not shown.
+    pub hidden: Option<Hidden>,
 }
 
 /// A choice of which some steps are drawn.
@@ -69,21 +71,8 @@ impl Viewer {
     /// # Errors
     /// Of the device.
     pub fn choose(&mut self, is_moving: bool, whole: &Settings) -> Result<Choice> {
-        let is_light = !self.encoding.is_plain();
-        let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
         if self.prepared.is_none() && self.warm.is_some() {
-            let (pictures, camera) = (vec![(Use::Other, whole.clone())], Some(warm::camera()));
-            let (what, scene_number) = ("other", self.scene_number);
-            return Ok(Choice {
-                pictures,
-                camera,
-                sample: None,
-                is_light,
-                profile,
-                what,
-                input: None,
-                scene_number,
-            });
+            return Ok(self.choice_of(vec![(Use::Other, whole.clone())], Some(warm::camera()), "other"));
         }
         self.warm = None;
         let is_coarse = self.shown == Use::Moving && !is_moving;
@@ -115,30 +104,58 @@ impl Viewer {
             self.comparing = None;
             self.tell(&format!("no comparison: {error}"));
         }
-        let drawn_so = |settings: Settings| match is_light {
-            true => Settings { background: None, ..settings },
-            false => settings,
-        };
         let wants = (self.is_stale || is_coarse || refines) && !begins_again;
+        if !wants && !is_moving && refinement.is_none() && self.can_refine()? {
+            if let Some((hidden, settings)) = self.next_hidden(whole) {
+                let choice = self.choice_of(vec![(Use::Moving, settings)], camera, "ahead");
+                return Ok(Choice { hidden: Some(hidden), ..choice });
+            }
+            self.refines = None;
+        }
         let mut pictures = Vec::new();
         if let Some(settings) = settings.filter(|_| wants && self.prepared.is_some()) {
-            let (size_px, lod) = (settings.size_px, settings.lod);
-            pictures.push((which, drawn_so(settings)));
-            if self.comparing.is_some() {
-                pictures.push((Use::Other, drawn_so(Settings { size_px, lod, ..self.other.clone() })));
-            }
+            let other = self.comparing.map(|_| (Use::Other, self.other_of(&settings)));
+            pictures.push((which, settings));
+            pictures.extend(other);
         }
         let what = match which {
             Use::Moving => "moving",
             _ => refinement.unwrap_or(Refinement::Whole).what(),
         };
-        let (input, scene_number) = (self.input_at, self.scene_number);
-        Ok(Choice { pictures, camera, sample, is_light, profile, what, input, scene_number })
+        let input = self.input_at;
+        Ok(Choice { sample, input, ..self.choice_of(pictures, camera, what) })
+    }
+
+    /// Such pictures of the scene of now, for no input.
+    pub fn choice_of(
+        &self,
+        mut pictures: Vec<(Use, Settings)>,
+        camera: Option<Camera>,
+        what: &'static str,
+    ) -> Choice {
+        let is_light = !self.encoding.is_plain();
+        if is_light {
+            // A curve is of what is drawn alone.
+            pictures.iter_mut().for_each(|(_, settings)| settings.background = None);
+        }
+        let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
+        let scene_number = self.scene_number;
+        Choice {
+            pictures,
+            camera,
+            sample: None,
+            is_light,
+            profile,
+            what,
+            input: None,
+            scene_number,
+            hidden: None,
+        }
     }
 
     /// Steps of it are drawn, and others are to come. `is_step`: it was so before.
     pub fn go_on_later(&mut self, choice: Choice, is_step: bool) {
-        if !is_step {
+        if !is_step && !self.is_unsure {
             self.is_stale = false;
         }
         self.steps = Some(Steps { choice, next_look: Instant::now() + LOOK });

@@ -1,12 +1,12 @@
-//! What the thread that reads files tells the window.
+//! What the threads that read files, and draw ahead, tell the window.
 
 use std::sync::mpsc::SyncSender;
 
 use surfel::{Error, Result, prepare::PreparedScene, vk::Staging};
 
-use super::document::Document;
+use super::{ahead::Kind, document::Document};
 
-/// What the thread tells the window.
+/// What a thread tells the window.
 pub enum News {
     /// Files are read.
     Opened(Box<Document>),
@@ -14,6 +14,10 @@ pub enum News {
     Prepared(Box<Prepared>),
     /// Bytes of a job are to be submitted; the thread waits for the answer, and keeps what they go to until then.
     Upload(Staging, u64, SyncSender<Result<()>>),
+    /// A picture is written, or not.
+    Written,
+    /// Pipelines of such pictures have run on another device.
+    Ran(Box<Kind>),
     /// Shaders were compiled anew, so many; or what is wrong with them.
     #[cfg(feature = "live-shaders")]
     Shaders(std::result::Result<usize, String>),

@@ -5,15 +5,35 @@ use std::{sync::Arc, time::Instant};
 use glam::DVec3;
 use surfel::{
     prepare::PreparedScene,
-    scene::{Camera, Encoding, Samples, Settings},
+    scene::{Encoding, Samples, Settings},
 };
 use winit::window::Window;
 
 use super::{
-    ViewArguments, anchor::Anchor, capture::Clipboard, document::Document, edits::Edits, files::Files,
-    gpu::Gpu, input::Input, keys::Comparing, loading::Loader, navigation::Navigation, on_device::OnDevice,
-    options::Options, pace::Pace, path::Path, picture::Use, steps::Steps, tidy::Tidies, ui::Ui, warm,
-    writing::Writing,
+    ViewArguments,
+    ahead::Ahead,
+    anchor::Anchor,
+    capture::Clipboard,
+    document::Document,
+    edits::Edits,
+    files::Files,
+    gpu::Gpu,
+    input::Input,
+    keys::Comparing,
+    loading::Loader,
+    meanwhile::Before,
+    navigation::Navigation,
+    on_device::OnDevice,
+    options::Options,
+    pace::Pace,
+    path::Path,
+    picture::Use,
+    refine::Hidden,
+    steps::Steps,
+    tidy::Tidies,
+    ui::Ui,
+    warm,
+    writing::{Saving, Writing},
 };
 use crate::console;
 
@@ -22,6 +42,8 @@ pub struct Viewer {
     pub window: Arc<Window>,
     pub gpu: Gpu,
     pub loader: Loader,
+    /// Draws pictures of other settings before the window does, where that is of use.
+    pub ahead: Option<Ahead>,
     pub input: Input,
     pub files: Files,
     pub path: Path,
@@ -34,6 +56,8 @@ pub struct Viewer {
     pub document: Option<Document>,
     /// The scene on the device.
     pub prepared: Option<OnDevice>,
+    /// Another one, for which pipelines are made.
+    pub coming: Option<OnDevice>,
     /// What is drawn before there is a scene, and not shown.
     pub warm: Option<PreparedScene>,
     pub navigation: Option<Navigation>,
@@ -48,7 +72,7 @@ pub struct Viewer {
     /// The thing of the scene that keys change.
     pub thing: usize,
     /// What was drawn last.
-    pub drawn: Option<(Settings, Camera)>,
+    pub drawn: Option<Before>,
     /// The method that is compared with, and how, if it is.
     pub other: Settings,
     pub comparing: Option<Comparing>,
@@ -70,10 +94,14 @@ pub struct Viewer {
     pub is_stale: bool,
     /// The picture may need pipelines that are not there yet.
     pub is_unsure: bool,
+    /// What was drawn for its pipelines alone.
+    pub hidden: Vec<Hidden>,
     /// Pictures that are drawn in steps.
     pub steps: Option<Steps>,
     /// A picture that is being written.
     pub writing: Option<Writing>,
+    /// One that a thread writes.
+    pub saving: Option<Saving>,
     /// Counts the changes of what is on the device.
     pub scene_number: u64,
     /// The picture that is shown.
@@ -121,6 +149,7 @@ impl Viewer {
             encoding,
             options: Options::of(arguments),
             window,
+            ahead: Ahead::new(gpu.headless.device(), loader.proxy()),
             gpu,
             loader,
             ui,
@@ -134,6 +163,7 @@ impl Viewer {
             reads_first: true,
             document: None,
             prepared: None,
+            coming: None,
             warm,
             navigation: None,
             edits: Edits { things: Vec::new(), splat_scale: 1.0 },
@@ -149,6 +179,7 @@ impl Viewer {
             input_at: None,
             is_stale: true,
             is_unsure: true,
+            hidden: Vec::new(),
             refined: 0,
             is_hasty: false,
             splats_drawn: None,
@@ -158,6 +189,7 @@ impl Viewer {
             tidies: Tidies::default(),
             steps: None,
             writing: None,
+            saving: None,
             scene_number: 0,
             shown: Use::Still,
             ends: false,
@@ -181,7 +213,9 @@ impl Viewer {
 
     /// Something that the picture shows has changed, other than by a camera that moves on.
     pub fn changed(&mut self) {
-        (self.is_stale, self.is_unsure) = (true, true);
+        self.is_stale = true;
+        self.hidden.clear();
+        self.begin_anew();
         self.anchor.forget();
         self.window.request_redraw();
     }
@@ -196,9 +230,9 @@ impl Viewer {
     /// Closes the window; keeps what was compiled.
     pub fn close(mut self) {
         self.finish_writing();
-        let Self { gpu, loader, prepared, warm, .. } = self;
-        drop(loader);
-        drop((prepared, warm));
+        let Self { gpu, loader, ahead, prepared, coming, warm, .. } = self;
+        drop((loader, ahead));
+        drop((prepared, coming, warm));
         // A lost cache costs the next run some time, that is all.
         let _ = gpu.headless.renderer.shaders().save_cache();
     }

@@ -1,6 +1,6 @@
-//! Pictures that leave the window for files: a sample at a time, and only while nothing moves, so that the window goes on between.
+//! Pictures that leave the window for files: drawn a sample at a time, and only while nothing moves, so that the window goes on between; and then encoded and written by a thread.
 
-use std::{path::PathBuf, time::Instant};
+use std::{path::PathBuf, thread::JoinHandle, time::Instant};
 
 use surfel::{
     Error, Result,
@@ -8,7 +8,9 @@ use surfel::{
     scene::{Camera, Encoding, Settings},
 };
 
-use super::{capture::free_name, on_device::OnDevice, viewer::Viewer};
+use winit::event_loop::EventLoopProxy;
+
+use super::{capture::free_name, on_device::OnDevice, told::News, viewer::Viewer};
 use crate::{
     outputs::PictureFormat,
     pictures::{self, Colors},
@@ -26,6 +28,25 @@ pub struct Writing {
     next: usize,
     /// The scene of which it is.
     scene_number: u64,
+}
+
+/// A picture that is drawn, and the thread that writes it.
+pub struct Saving {
+    path: PathBuf,
+    thread: JoinHandle<Result<()>>,
+}
+
+impl Saving {
+    fn new(writing: Writing, frame: Frame, proxy: EventLoopProxy<News>) -> Self {
+        let path = writing.path.clone();
+        let thread = std::thread::spawn(move || {
+            let written = writing.write(&frame);
+            // Nobody hears it once the window is closed.
+            let _ = proxy.send_event(News::Written);
+            written
+        });
+        Self { path, thread }
+    }
 }
 
 impl Writing {
@@ -51,8 +72,9 @@ impl Writing {
 impl Viewer {
     /// Begins to write the picture to a file of its own in the current folder.
     pub fn write_picture(&mut self) {
-        if let Some(writing) = &self.writing {
-            let words = format!("{} is being written", writing.path.display());
+        let saving = self.saving.as_ref().map(|saving| &saving.path);
+        if let Some(path) = self.writing.as_ref().map(|writing| &writing.path).or(saving) {
+            let words = format!("{} is being written", path.display());
             self.ui.tell(&words);
             return;
         }
@@ -98,9 +120,22 @@ impl Viewer {
         while self.writing.is_some() {
             self.write_on();
         }
+        self.end_saving();
     }
 
-    /// Draws the next sample of a picture that is being written; behind the last one, writes it.
+    /// Waits for the thread that writes a picture, and tells what came of it.
+    pub fn end_saving(&mut self) {
+        let Some(Saving { path, thread }) = self.saving.take() else { return };
+        match thread.join() {
+            // The standard error has heard of it.
+            Ok(Ok(())) => self.ui.tell(&format!("{} is written", path.display())),
+            Ok(Err(error)) => self.tell(&error.to_string()),
+            Err(_) => self.tell(&format!("{} is not written", path.display())),
+        }
+        self.window.request_redraw();
+    }
+
+    /// Draws the next sample of a picture that is being written; behind the last one, has it written.
     pub fn write_on(&mut self) {
         let Some(mut writing) = self.writing.take() else { return };
         match self.draw_sample(&writing) {
@@ -114,11 +149,7 @@ impl Viewer {
                     self.window.request_redraw();
                     return;
                 }
-                match writing.write(&frame) {
-                    // The standard error has heard of it.
-                    Ok(()) => self.ui.tell(&format!("{path} is written")),
-                    Err(error) => self.tell(&error.to_string()),
-                }
+                self.saving = Some(Saving::new(writing, frame, self.loader.proxy()));
             }
             Err(error) => self.tell(&error.to_string()),
         }

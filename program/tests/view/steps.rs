@@ -72,6 +72,43 @@ fn pipelines_that_never_ran_are_compiled_step_by_step_and_what_changes_meanwhile
     view.end();
 }
 
+/// The longest of the frames that draw a plane for the first time, in milliseconds on the device, where Mesa keeps what it has compiled in a new folder, or nowhere; and the first of these frames.
+fn longest_of_a_plane(has_cache: bool) -> (f64, String) {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 20_000);
+    let words = [&["a.ply", "--size", "320x240", "--samples", "1"], &CAMERA[..]].concat();
+    let cache = folder.path("cache");
+    fs::create_dir(&cache).unwrap();
+    let environment =
+        [("MESA_SHADER_CACHE_DIR", cache.to_str().unwrap()), ("MESA_SHADER_CACHE_DISABLE", "true")];
+    let environment = if has_cache { &environment[..1] } else { &environment[1..] };
+    let mut view =
+        View::open_in(&screen, &folder, &[&words[..], &["--print-frames"]].concat(), true, environment);
+    view.wait_for(&render(&folder, &words));
+    view.wait("the first picture is told", |view| frames(&view.printed(), 0).contains(&"whole"));
+    let printed_before = view.printed().len();
+    screen.key("X");
+    screen.drag([160, 120], [210, 100], 1);
+    view.wait("the plane is drawn", |view| {
+        let printed = view.printed();
+        let frames = frames(&printed, printed_before);
+        let step = frames.iter().position(|what| *what == "step");
+        step.is_some_and(|step| frames[step..].contains(&"whole"))
+    });
+    let since = view.end().stdout[printed_before..].to_owned();
+    let ms = |line: &str| line.split_once(" ms on the device")?.0.rsplit(' ').next()?.parse::<f64>().ok();
+    let longest = since.lines().filter_map(ms).fold(0.0, f64::max);
+    (longest, frames(&since, 0)[0].to_owned())
+}
+
+/// Another device has compiled the pipelines by then, and the window has gone on with the picture as it was.
+#[test]
+fn what_a_driver_compiles_holds_up_no_frame_where_it_keeps_it_on_disk() {
+    let [(with, first), (without, _)] = [true, false].map(longest_of_a_plane);
+    assert!(first != "step", "the camera has moved first, and the plane is still to come");
+    assert!(3.0 * with < without, "{with} and {without} ms");
+}
+
 /// The file is standard input, of which nothing comes before the window has drawn what it draws for its pipelines.
 #[test]
 fn pipelines_have_run_before_the_first_file_is_read() {

@@ -23,7 +23,7 @@ pub fn memory_need(device: &Device, desc: &ResourceDesc, usage: Usage) -> Result
     let mut requirements = vk::MemoryRequirements2::default();
     match (desc, usage) {
         (ResourceDesc::Image(desc), Usage::Image(usage)) => {
-            let desc = image_desc(NAME, *desc, usage);
+            let desc = image_desc(device, NAME, *desc, usage);
             desc.check(device)?;
             let create = desc.placed_info(device);
             let info = vk::DeviceImageMemoryRequirements::default().create_info(&create);
@@ -126,7 +126,7 @@ impl Transients {
             let (block, offset) = (&memory[slot.block], slot.offset_bytes);
             objects.push(match (resource.desc, resource.usage) {
                 (ResourceDesc::Image(desc), Usage::Image(usage)) => {
-                    let desc = image_desc(&resource.name, desc, usage);
+                    let desc = image_desc(device, &resource.name, desc, usage);
                     Some(Object::Image(Image::placed(device, desc, block, offset)?))
                 }
                 (ResourceDesc::Buffer(desc), Usage::Buffer(usage)) => {
@@ -177,6 +177,41 @@ pub(super) fn transient_name(class: MemoryClass) -> &'static str {
     }
 }
 
-fn image_desc(name: &str, desc: ImageDesc, usage: vk::ImageUsageFlags) -> PhysicalImageDesc<'_> {
-    PhysicalImageDesc { name, format: desc.format, extent: desc.extent, usage }
+fn image_desc<'a>(
+    device: &Device,
+    name: &'a str,
+    desc: ImageDesc,
+    usage: vk::ImageUsageFlags,
+) -> PhysicalImageDesc<'a> {
+    let is_written = usage.contains(vk::ImageUsageFlags::STORAGE);
+    let limits = &device.facts().limits;
+    let extent = match is_written && limits.is_cpu {
+        true => one_shape(desc.extent, limits.max_image_side),
+        false => desc.extent,
+    };
+    PhysicalImageDesc { name, format: desc.format, extent, usage }
+}
+
+/// A row or column more where there is a power of two of them. llvmpipe compiles a shader once for images with such sides and once more for others: the largest shader of a frame, which takes seconds,
+/// whenever a window comes to such a size or leaves it. Shaders never ask images that they write for their sides but for the half of an even number of rows, which stays.
+fn one_shape(vk::Extent2D { width, height }: vk::Extent2D, most: u32) -> vk::Extent2D {
+    let beside = |side: u32| (side..=most).find(|side| !side.is_power_of_two()).unwrap_or(side);
+    vk::Extent2D { width: beside(width), height: beside(height) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_side_is_a_power_of_two_and_half_of_the_rows_stays_half() {
+        for side in 1..5000 {
+            let vk::Extent2D { width, height } =
+                one_shape(vk::Extent2D { width: side, height: 2 * side }, 1 << 14);
+            assert!(!width.is_power_of_two() && !height.is_power_of_two());
+            assert!((side..=side + 2).contains(&width) && height / 2 == side);
+        }
+        let most = vk::Extent2D { width: 64, height: 64 };
+        assert_eq!(one_shape(most, 64), most);
+    }
 }

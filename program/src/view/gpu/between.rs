@@ -10,6 +10,7 @@ use super::{
     super::{
         frame_desc::SceneView,
         memory,
+        overlay::OverlayBuffers,
         picture::{Cost, Picture, Use},
     },
     Gpu,
@@ -115,6 +116,8 @@ impl Gpu {
             let is_shown = which == shown || which == Use::Other;
             self.pictures[which.index()].forget_frames(device, is_shown)?;
         }
+        // Their room is that of the most that lay over a picture so far.
+        self.frames.iter_mut().for_each(|frame| frame.overlay = OverlayBuffers::default());
         Ok(())
     }
 

@@ -1,0 +1,57 @@
+//! What frames have cost: the pace learns it, and the panel and `--print-frames` tell it.
+
+use std::time::{Duration, Instant};
+
+use surfel::Result;
+
+use super::{picture::Use, printed, viewer::Viewer};
+use crate::console;
+
+/// How soon the cost of a frame is looked for again that is not done.
+pub const COST: Duration = Duration::from_millis(10);
+
+impl Viewer {
+    /// Learns what frames have cost.
+    ///
+    /// # Errors
+    /// Of the device.
+    pub fn learn(&mut self, is_moving: bool) -> Result<()> {
+        self.looks_for_costs = None;
+        // With what it takes to show the picture, too.
+        let period = self.gpu.take_period().filter(|_| is_moving && self.was_moving);
+        self.was_moving = is_moving;
+        for which in Use::ALL {
+            let (costs, all) = self.gpu.take_costs(which)?;
+            for cost in costs {
+                if self.options.prints_frames {
+                    console::print(&printed::frame(&cost))?;
+                }
+                if which == Use::Other {
+                    continue;
+                }
+                // A picture at rest tells of moving ones where they are the same.
+                if is_moving && cost.what != "ahead" && (which == Use::Moving || self.pace.is_finest()) {
+                    let secs = period.map_or(cost.secs, |period| period.as_secs_f64());
+                    self.pace.learn(secs, cost.compiles);
+                }
+                if cost.what == "whole" && !cost.compiles {
+                    self.pace.learn_whole(cost.secs);
+                    let hidden = self.next_hidden(&self.whole());
+                    self.refines = self.refines.or(hidden.map(|_| Instant::now()));
+                }
+                if !["step", "ahead"].contains(&cost.what) {
+                    self.ui.history.push(&cost);
+                }
+            }
+            if !all && self.shows_costs() {
+                self.looks_for_costs = Some(Instant::now() + COST);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether somebody is to be told what frames have cost, or the pace is.
+    pub fn shows_costs(&self) -> bool {
+        self.ui.shows_times() || self.options.prints_frames || !self.pace.has_moved()
+    }
+}

@@ -1,0 +1,133 @@
+//! What the window does until the pipelines of other settings are there: it goes on with the settings of before, from where the camera is now.
+
+use std::sync::Arc;
+
+use surfel::{
+    Result,
+    scene::{Camera, Encoding, Settings},
+};
+
+use super::{
+    ahead::Job, document::Document, on_device::OnDevice, picture::Use, steps::Choice, told::Step,
+    viewer::Viewer,
+};
+
+/// What was drawn last.
+pub struct Before {
+    pub settings: Settings,
+    pub camera: Camera,
+    pub encoding: Encoding,
+    pub scene_number: u64,
+    /// The method that it was compared with, if it was.
+    pub other: Option<Settings>,
+}
+
+impl Viewer {
+    /// Takes another scene that has come in the place of the one that is shown, once there are pipelines for it; a first one at once.
+    pub fn take_scene(&mut self) {
+        // A picture that is being written is of the one that is shown.
+        let Some(coming) = self.coming.take_if(|_| self.writing.is_none()) else { return };
+        if self.prepared.is_some() {
+            let whole = self.whole();
+            let mut pictures = vec![(Use::Still, whole.clone())];
+            pictures.extend(self.comparing.map(|_| (Use::Other, self.other_of(&whole))));
+            let choice = self.choice_of(pictures, self.camera(), "whole");
+            // An error comes with its first frame, too.
+            if matches!(self.has_pipelines(&choice, &whole, Some(&coming)), Ok(false)) {
+                self.coming = Some(coming);
+                return;
+            }
+        }
+        self.scene_number += 1;
+        self.prepared = Some(coming);
+        self.changed();
+    }
+
+    /// There may be pipelines to make.
+    pub fn begin_anew(&mut self) {
+        self.is_unsure = true;
+        if let Some(ahead) = &mut self.ahead {
+            ahead.begin();
+        }
+    }
+
+    /// The method that is compared with, at the size of a picture.
+    pub fn other_of(&self, settings: &Settings) -> Settings {
+        Settings { size_px: settings.size_px, lod: settings.lod, ..self.other.clone() }
+    }
+
+    /// Makes some of the pipelines of these pictures; whether all are there, and have run on another device where that is of use. `whole`: how all of the picture is drawn; `coming`: another
+    /// scene than the one that is shown.
+    ///
+    /// # Errors
+    /// As [`surfel::Renderer::make_pipelines`].
+    pub fn has_pipelines(
+        &mut self,
+        choice: &Choice,
+        whole: &Settings,
+        coming: Option<&OnDevice>,
+    ) -> Result<bool> {
+        let prepared = coming.or(self.prepared.as_ref());
+        let scene = prepared.map(OnDevice::scene).or(self.warm.as_ref());
+        let views = scene.map_or(Vec::new(), |scene| choice.views(scene));
+        let made = || self.gpu.headless.renderer.shaders().made();
+        let before = made();
+        let are_made = self.gpu.make_pipelines(&views)?;
+        let is_new = made() != before;
+        if !are_made {
+            self.window.request_redraw();
+        }
+        // The first picture has nothing to go on with. Pages are another view's when they are there.
+        let (Some(ahead), Some(_), Some(document), Some(OnDevice::Whole(_, step)), Some(camera)) =
+            (&mut self.ahead, &self.drawn, &self.document, prepared, choice.camera)
+        else {
+            return Ok(are_made);
+        };
+        let Document { scene, .. } = document;
+        let pictures = choice.pictures.iter().map(|(_, settings)| settings);
+        let coarse = self.pace.size_px(whole.size_px);
+        let settings = pictures.flat_map(|settings| {
+            let all = Settings { size_px: whole.size_px, lod: whole.lod, ..settings.clone() };
+            let moving = Settings { size_px: coarse, lod: self.pace.lod(whole.lod), ..settings.clone() };
+            [all, moving]
+        });
+        let job = Job {
+            scene: Arc::clone(scene),
+            edits: self.edits.clone(),
+            has_levels: *step == Step::Leveled && !scene.has_levels(),
+            camera,
+            settings: settings.collect(),
+            is_light: !self.encoding.is_plain(),
+        };
+        Ok(ahead.is_ready(job, is_new) && are_made)
+    }
+
+    /// The picture as it was, of a camera that has moved since; `None` where that can't be drawn, as where it is the camera that takes other pipelines.
+    pub fn as_before(&self) -> Option<Choice> {
+        let before = self.drawn.as_ref()?;
+        let camera = self.camera().filter(|camera| *camera != before.camera)?;
+        let is_parallel = |camera: &Camera| camera.orthographic_height.is_some();
+        let is_same = (before.encoding, before.scene_number) == (self.encoding, self.scene_number);
+        let other = self.comparing.map(|_| &self.other);
+        let takes_others = (&before.settings, before.other.as_ref()) != (&self.settings, other);
+        if !takes_others
+            || !is_same
+            || is_parallel(&camera) != is_parallel(&before.camera)
+            || before.other.is_some() != self.comparing.is_some()
+        {
+            return None;
+        }
+        let whole = self.at_rest(&Settings { size_px: self.window_px(), ..before.settings.clone() });
+        let (which, settings) = match self.pace.is_finest() {
+            true => (Use::Still, whole),
+            false => (Use::Moving, self.coarse(&whole)),
+        };
+        let Settings { size_px, lod, .. } = settings;
+        let other = before.other.iter().map(|other| (Use::Other, Settings { size_px, lod, ..other.clone() }));
+        let pictures: Vec<_> = [(which, settings)].into_iter().chain(other).collect();
+        let check = |(_, settings): &(Use, Settings)| self.gpu.headless.renderer.check(&camera, settings);
+        pictures.iter().try_for_each(check).ok()?;
+        let input = self.input_at;
+        Some(Choice { input, ..self.choice_of(pictures, Some(camera), "moving") })
+    }
+}
