@@ -181,8 +181,9 @@ fn a_part_becomes_few_splats_with_sharp_edges() {
     assert!(high > 6 && 10 * all < 11 * wide * high, "{rows:?}");
     // Splats as large as the picture have edges that cover pixels in part. In a huge one they are the graphics pipeline's, whose edges are hard, which is told.
     for (size, is_hard) in [("64x64", false), ("900x900", false), ("2200x2200", true)] {
-        let told =
-            surfel(&folder, &["render", "a.ply", "-o", "c.png", "--size", size, "--ortho", "--explain"]);
+        let words =
+            ["render", "a.ply", "-o", "c.png", "--size", size, "--ortho", "--samples", "1", "--explain"];
+        let told = surfel(&folder, &words);
         assert_eq!(
             (told.code, told.stdout.contains("(edges are hard, since")),
             (0, is_hard),

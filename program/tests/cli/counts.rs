@@ -2,19 +2,6 @@
 
 use std::{fs, path::PathBuf, process::Command};
 
-/// Also those that no rasterizer of the papers has.
-#[test]
-fn instructions_of_all_shaders_are_counted() {
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_surfel")).args(["bench", "counts", "--all"]).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(
-        ["layer.frag", "tile_shade.comp", "finalize.frag"].iter().all(|name| text.contains(name)),
-        "{text}"
-    );
-}
-
 #[test]
 fn compilers_of_real_chips_make_instructions_of_every_pipeline() {
     let radv = PathBuf::from("/usr/share/vulkan/icd.d");

@@ -159,6 +159,21 @@ fn outlines_of_polygons_are_no_stairs_unless_that_is_asked_for() {
     for hard in [["--samples", "1"], ["--edges", "hard"]] {
         assert_eq!(between(&drawn("slanted.obj", &hard)), 0, "{hard:?}");
     }
-    // Splats cover pixels in part in one.
+    // Splats cover pixels in part in one by tiles; by points, and without a filter that widens them, they take as many samples.
     assert_eq!(drawn("disk.ply", &[]), drawn("disk.ply", &["--samples", "1"]));
+    for method in [["--rasterizer", "affine"], ["--filter", "none"]] {
+        let with = |words: &[&str]| drawn("disk.ply", &[&method[..], words].concat());
+        let plain = with(&[]);
+        assert_eq!(plain, with(&["--samples", "8", "--edges", "hard"]), "{method:?}");
+        assert!(between(&plain) > 50, "{}", between(&plain));
+        for hard in [["--samples", "1"], ["--edges", "hard"]] {
+            assert_eq!(between(&with(&hard)), 0, "{method:?} {hard:?}");
+        }
+        let told = |words: &[&str]| {
+            let first = ["render", "disk.ply", "--size", "9x9", "--explain"];
+            let all = [&first[..], &method, words].concat();
+            surfel(&folder, &all).stdout.contains("8 samples a pixel, with hard edges")
+        };
+        assert_eq!([told(&[]), told(&["--edges", "hard"]), told(&["--samples", "1"])], [true, false, false]);
+    }
 }
