@@ -115,7 +115,8 @@ pub(crate) fn cut_without_large<'m>(
     let ends = |bands: u32| arena.list((1..bands).map(|band| start + (end - start) * band / bands));
     let bands = std::iter::successors(Some(2), |bands| Some(2 * bands))
         .take_while(|bands| *bands <= MOST_BANDS as u32);
-    let plans = |bands: u32| cut.plans_between(ends(bands));
+    let plan = |rows| whole.of_rows_alone(draws, seen, rows, settings, limits);
+    let plans = |bands: u32| cut.plans_between(ends(bands), plan);
     bands.filter_map(plans).find(|plans| plans.iter().all(|plan| !plan.may_be_large))
 }
 
@@ -139,7 +140,9 @@ impl<'m> Cut<'_, 'm> {
             plans.len() > 1 && plans.iter().all(|plan| 4 * plan.bytes() <= 3 * whole.bytes())
         };
         let enough = |plans: &&[TilePlan]| plans.iter().all(|plan| plan.bytes() <= most_bytes);
-        if let Some(plans) = self.plans_between(ends).filter(|plans| gains(plans) && enough(plans)) {
+        if let Some(plans) =
+            self.plans_between(ends, |rows| self.plan(rows)).filter(|plans| gains(plans) && enough(plans))
+        {
             return Some(plans);
         }
         // All bands together take at least what the whole does.
@@ -170,13 +173,17 @@ impl<'m> Cut<'_, 'm> {
         self.whole.of_rows_of_it(self.draws, self.seen, rows, self.settings, self.limits)
     }
 
-    /// The plans of bands that end at these rows.
-    fn plans_between(&self, ends: &[u32]) -> Option<&'m [TilePlan]> {
+    /// The plans of bands that end at these rows; `plan`: of one.
+    fn plans_between(
+        &self,
+        ends: &[u32],
+        plan: impl Fn(Range<u32>) -> Option<TilePlan>,
+    ) -> Option<&'m [TilePlan]> {
         let Range { start, end } = self.seen.rows()?;
         let mut plans: ArenaVec<'_, TilePlan> = self.arena.growing();
         let mut next = start;
         for end in ends.iter().copied().filter(|row| start < *row && *row < end).chain([end]) {
-            plans.extend(self.plan(next..end));
+            plans.extend(plan(next..end));
             next = end;
         }
         Some(self.alike(&plans))

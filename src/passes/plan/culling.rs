@@ -53,7 +53,8 @@ pub(crate) fn list_has_room(blocks: usize, limits: &Limits) -> bool {
     blocks as u64 * u64::from(BLOCK_SPLATS) * 4 < limits.max_storage_buffer_range.min(1 << 32)
 }
 
-fn blocks_of(splats: &[Draw<'_>]) -> usize {
+/// How many blocks they are.
+pub(crate) fn blocks_of(splats: &[Draw<'_>]) -> usize {
     splats.iter().map(|draw| draw.chunk.blocks.len()).sum()
 }
 

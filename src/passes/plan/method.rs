@@ -130,7 +130,9 @@ fn bands<'a>(
         let gains = culling::may_leave_out(splats)
             || whole.bytes() > most_bytes(splats, settings.tile_memory)
             || leaves_large(&whole);
-        if !gains || !culling::lists_tiles(splats, settings, limits) {
+        let lists = culling::lists_tiles(splats, settings, limits)
+            || leaves_large(&whole) && culling::list_has_room(culling::blocks_of(splats), limits);
+        if !gains || !lists {
             let mut own = arena.growing();
             own.extend_from_slice_copy(splats);
             culling::number_splats(&mut own);

@@ -64,7 +64,7 @@ impl TilePlan {
         Self::of_rows(draws, seen.boxes(&rows), rows, culls_hidden, settings, limits)
     }
 
-    /// The same for some rows of what this one draws.
+    /// The same for some rows of what this one draws, with the same splats left to the graphics pipeline.
     pub(crate) fn of_rows_of_it(
         &self,
         draws: &[Draw<'_>],
@@ -73,11 +73,29 @@ impl TilePlan {
         settings: &Settings,
         limits: &Limits,
     ) -> Option<Self> {
-        let size_px = settings.size_px;
+        let (size_px, all) = all_of(settings.size_px);
         let boxes = seen.boxes(&rows);
-        let plan = Self::of_boxes(draws.len(), boxes, (size_px, rows.clone()), limits, self.invocations)?;
-        // Bands are to save memory, which the counts of more pieces take.
-        Self { pieces: 1, ..plan }.when_drawn(draws, self.hidden, limits)
+        let plan = Self::of_boxes(draws.len(), boxes, (size_px, all), limits, self.invocations)?;
+        plan.within(rows).in_one_piece(draws, self.hidden, limits)
+    }
+
+    /// The same with splats left to it that have no room in these rows' own lists, in which none has more tiles than the rows have.
+    pub(crate) fn of_rows_alone(
+        &self,
+        draws: &[Draw<'_>],
+        seen: &PotentiallyVisibleBlocks<'_>,
+        rows: Range<u32>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Option<Self> {
+        let area = (settings.size_px, rows.clone());
+        let plan = Self::of_boxes(draws.len(), seen.boxes(&rows), area, limits, self.invocations)?;
+        plan.in_one_piece(draws, self.hidden, limits)
+    }
+
+    /// Bands are to save memory, which the counts of more pieces take.
+    fn in_one_piece(self, draws: &[Draw<'_>], culls_hidden: bool, limits: &Limits) -> Option<Self> {
+        Self { pieces: 1, ..self }.when_drawn(draws, culls_hidden, limits)
     }
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
