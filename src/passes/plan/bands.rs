@@ -105,12 +105,12 @@ pub(crate) fn cut_without_large<'m>(
     settings: &Settings,
     limits: &Limits,
 ) -> Option<&'m [TilePlan]> {
-    if !seen.boxes(&seen.rows()?).all(|(_, px)| px.is_finite()) {
+    let Range { start, end } = seen.rows()?;
+    if !seen.boxes(&(start..end)).all(|(_, px)| px.is_finite()) {
         return None;
     }
     let costs = seen.costs(arena, |box_px| whole.bytes_of_one(box_px));
     let cut = Cut { arena, draws, seen, costs, whole, settings, limits };
-    let Range { start, end } = seen.rows()?;
     // Of equal parts: most of what is so large is in all of them.
     let ends = |bands: u32| arena.list((1..bands).map(|band| start + (end - start) * band / bands));
     let bands = std::iter::successors(Some(2), |bands| Some(2 * bands))
@@ -258,9 +258,8 @@ mod tests {
         let cut = bands(&large, &camera(), Edges::Coverage);
         assert!((2..=MOST_BANDS).contains(&cut.len()), "{cut:?}");
         assert!(cut.iter().all(|plan| !plan.may_be_large && plan.bytes() < 100_000_000), "{cut:?}");
-        let rows: Vec<_> = cut.iter().map(|plan| plan.rows.clone()).collect();
-        assert!(rows.windows(2).all(|pair| pair[0].end == pair[1].start), "{rows:?}");
-        assert_eq!((rows[0].start, rows[rows.len() - 1].end), (0, 128));
+        assert!(cut.windows(2).all(|pair| pair[0].rows.end == pair[1].rows.start), "{cut:?}");
+        assert_eq!((cut[0].rows.start, cut[cut.len() - 1].rows.end), (0, 128));
         let beside_eye = Camera { eye: DVec3::new(0.5, 0.5, 0.0), target: DVec3::ZERO, ..camera() };
         for (camera, edges) in [(camera(), Edges::Hard), (beside_eye, Edges::Coverage)] {
             let whole = bands(&large, &camera, edges);
@@ -273,9 +272,9 @@ mod tests {
     #[test]
     fn a_band_takes_no_more_than_it_may_tiles_without_splats_included() {
         let limits = Limits::plain();
+        let most = 16_000_000;
         for (count, radius, side_px) in [(20_000, 0.01, 4096), (100_000, 0.004, 3000)] {
             let prepared = sheet(count, radius);
-            let most = 16_000_000;
             let settings = Settings {
                 size_px: [side_px; 2],
                 rasterizer: Rasterizer::Compute,

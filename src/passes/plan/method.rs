@@ -115,6 +115,9 @@ fn bands<'a>(
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
     // Bands may have room for what is too large for lists of all of the image; but polygons may be drawn between two passes over all of it.
     let leaves_large = |plan: &TilePlan| plan.may_be_large && !polygons && settings.covers_in_part();
+    let of_plans = |seen: &PotentiallyVisibleBlocks<'_>, plans: &[TilePlan]| {
+        arena.list(plans.iter().map(|plan| Band::new(arena, splats, seen, plan.clone())))
+    };
     let (seen, whole, ends) = if splats.iter().any(|draw| draw.levels.is_some()) {
         // Of levels of detail there may be many more splats than there is room for; those that may be drawn are few.
         let seen = seen();
@@ -127,12 +130,15 @@ fn bands<'a>(
     } else {
         let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
         // Bands are made of listed splats, too.
-        let gains = culling::may_leave_out(splats)
-            || whole.bytes() > most_bytes(splats, settings.tile_memory)
-            || leaves_large(&whole);
-        let lists = culling::lists_tiles(splats, settings, limits)
-            || leaves_large(&whole) && culling::list_has_room(culling::blocks_of(splats), limits);
-        if !gains || !lists {
+        let gains =
+            culling::may_leave_out(splats) || whole.bytes() > most_bytes(splats, settings.tile_memory);
+        if !gains || !culling::lists_tiles(splats, settings, limits) {
+            if leaves_large(&whole) && culling::list_has_room(culling::blocks_of(splats), limits) {
+                let seen = seen();
+                if let Some(cut) = cut_without_large(arena, splats, &seen, &whole, settings, limits) {
+                    return Some(of_plans(&seen, cut));
+                }
+            }
             let mut own = arena.growing();
             own.extend_from_slice_copy(splats);
             culling::number_splats(&mut own);
@@ -194,7 +200,7 @@ fn bands<'a>(
     // A splat that is large for a band alone would be the graphics pipeline's, too.
     match cut.is_empty() || cut.iter().any(left_to_others) {
         true => Some(std::slice::from_ref(arena.keep(Band::new(arena, splats, &seen, whole)))),
-        false => Some(arena.list(cut.iter().map(|plan| Band::new(arena, splats, &seen, plan.clone())))),
+        false => Some(of_plans(&seen, cut)),
     }
 }
 
