@@ -174,8 +174,13 @@ fn draw(
     let seen = (&camera, &settings);
     let drawing::Ready { settings, scene: prepared } =
         drawing::ready(headless, &mut loaded, seen, &arguments.hierarchies, (&mut steps, &bars))?;
+    let frames = arguments.frames.or(arguments.timings.is_some().then_some(DEFAULT_TIMED_FRAMES));
     let edges = settings.edges;
-    let settings = &picture.smoothed(settings, part, (&prepared, &whole), &headless.renderer);
+    // What is timed is a frame.
+    let settings = &match frames {
+        None => picture.smoothed(settings, part, (&prepared, &whole), &headless.renderer),
+        Some(_) => settings,
+    };
     if arguments.explain && settings.edges != edges {
         console::print(SMOOTHED)?;
     }
@@ -184,7 +189,6 @@ fn draw(
     drop(scene);
     let view = View { scene: &prepared, camera: &camera, settings };
 
-    let frames = arguments.frames.or(arguments.timings.is_some().then_some(DEFAULT_TIMED_FRAMES));
     if let Some(frames) = frames {
         let (times, transient_bytes) = measure::frame_times(headless, view, frames, &mut steps)?;
         let report = RunReport {

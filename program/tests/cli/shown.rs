@@ -161,7 +161,7 @@ fn outlines_of_polygons_are_no_stairs_unless_that_is_asked_for() {
     }
     // Splats cover pixels in part in one by tiles; by points, and without a filter that widens them, they take as many samples.
     assert_eq!(drawn("disk.ply", &[]), drawn("disk.ply", &["--samples", "1"]));
-    for method in [["--rasterizer", "affine"], ["--filter", "none"]] {
+    for method in [["--rasterizer", "affine-center"], ["--filter", "none"]] {
         let with = |words: &[&str]| drawn("disk.ply", &[&method[..], words].concat());
         let plain = with(&[]);
         assert_eq!(plain, with(&["--samples", "8", "--edges", "hard"]), "{method:?}");
