@@ -13,7 +13,7 @@ use crate::{
     graph::{BufferDesc as GraphBufferDesc, BufferState, execute::Physical},
     passes::{self, Inputs, Place},
     prepare::{Placed, PreparedScene},
-    scene::{Camera, Settings, TileMemory},
+    scene::{Camera, Edges, Rasterizer, Settings, TileMemory},
     vk::{Buffer, BufferDesc, MemoryUse},
 };
 
@@ -25,7 +25,12 @@ impl Headless {
     /// As [`Self::list_occupancy`].
     pub fn count_listed(&self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<u64> {
         // In one band: splats that reach into two are in the lists of both.
-        let settings = Settings { tile_memory: TileMemory::Most(1 << 33), ..settings.clone() };
+        let mut settings = Settings { tile_memory: TileMemory::Most(1 << 33), ..settings.clone() };
+        let arena = Arena::new();
+        let frame = self.renderer.frame_plan(&arena, &[Placed::at_home(scene)], camera, &settings)?;
+        if [&frame.opaque, &frame.transparent].iter().any(|plan| plan.bands().len() > 1) {
+            (settings.edges, settings.rasterizer) = (Edges::Hard, Rasterizer::Compute);
+        }
         let in_use = self.list_occupancy(scene, camera, &settings)?;
         let lists = in_use.bytes.iter().filter(|(name, _)| name.starts_with("list of visible"));
         Ok(lists.map(|(_, bytes)| bytes / 4).sum())

@@ -113,8 +113,12 @@ fn bands<'a>(
         PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
-    // Bands may have room for what is too large for lists of all of the image; but polygons may be drawn between two passes over all of it.
-    let leaves_large = |plan: &TilePlan| plan.may_be_large && !polygons && settings.covers_in_part();
+    // Bands may have room for what is too large for lists of all of the image; but polygons may be drawn between two passes over all of it, and levels of detail
+    // are counted in one list.
+    let leaves_large = |plan: &TilePlan| {
+        let may_gain = !polygons && splats.iter().all(|draw| draw.levels.is_none());
+        plan.may_be_large && may_gain && settings.covers_in_part()
+    };
     let of_plans = |seen: &PotentiallyVisibleBlocks<'_>, plans: &[TilePlan]| {
         arena.list(plans.iter().map(|plan| Band::new(arena, splats, seen, plan.clone())))
     };
