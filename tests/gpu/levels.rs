@@ -384,10 +384,12 @@ fn a_budget_is_kept_and_filled() {
         };
         hard.settings.lod_steps = if round % 2 == 0 { LodSteps::Hard } else { LodSteps::Blend };
         for most in [4_000, 20_000, 60_000] {
-            let in_use = |settings: &Settings| {
-                let in_use = headless.list_occupancy(&prepared, &hard.camera, settings).unwrap();
-                in_use.bytes.get("list of visible splats").map_or(400_000, |bytes| bytes / 4)
-            };
+            let in_use =
+                |settings: &Settings| match headless.count_listed(&prepared, &hard.camera, settings).unwrap()
+                {
+                    0 => 400_000,
+                    listed => listed,
+                };
             let all = in_use(&hard.settings);
             let drawn = in_use(&Settings { budget: Budget::Splats(most), ..hard.settings.clone() });
             let share = drawn as f64 / f64::from(most);
