@@ -272,6 +272,7 @@ fn splats_too_large_for_lists_of_the_image_cover_pixels_in_part_in_bands() {
     let mut hard = hard("from near", vec![sphere(1500, DVec3::ZERO)], [0.0, 0.0, 6.0]);
     hard.camera = Camera { target: DVec3::new(0.98, 0.0, 0.0), fov_y_rad: 0.02, ..hard.camera };
     hard.settings.background = None;
+    hard.settings.rasterizer = Rasterizer::Compute;
     let of_hard = Hard { settings: Settings { edges: Edges::Hard, ..hard.settings.clone() }, ..hard.clone() };
     with_limits(
         &mut headless,
@@ -285,6 +286,11 @@ fn splats_too_large_for_lists_of_the_image_cover_pixels_in_part_in_bands() {
             let in_part = frame.linear.iter().filter(|pixel| pixel[3] > 0.05 && pixel[3] < 0.95).count();
             assert!(in_part > 100, "{in_part}");
             assert_eq!(bands(&render_as(headless, &of_hard, PICTURE)), 0);
+            // What reaches into several bands is counted once.
+            let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+            let [listed, at_once] = [&hard, &of_hard]
+                .map(|hard| headless.count_listed(&prepared, &hard.camera, &hard.settings).unwrap());
+            assert!(listed == at_once && listed > 0, "{listed} {at_once}");
         },
     );
 }

@@ -115,7 +115,7 @@ pub(crate) fn cut_without_large<'m>(
     let ends = |bands: u32| arena.list((1..bands).map(|band| start + (end - start) * band / bands));
     let bands = std::iter::successors(Some(2), |bands| Some(2 * bands))
         .take_while(|bands| *bands <= MOST_BANDS as u32);
-    let plan = |rows| whole.of_rows_alone(draws, seen, rows, settings, limits);
+    let plan = |rows| whole.of_rows_of_it(draws, seen, (rows, true), settings, limits);
     let plans = |bands: u32| cut.plans_between(ends(bands), plan);
     bands.filter_map(plans).find(|plans| plans.iter().all(|plan| !plan.may_be_large))
 }
@@ -170,7 +170,7 @@ impl<'m> Cut<'_, 'm> {
     }
 
     fn plan(&self, rows: Range<u32>) -> Option<TilePlan> {
-        self.whole.of_rows_of_it(self.draws, self.seen, rows, self.settings, self.limits)
+        self.whole.of_rows_of_it(self.draws, self.seen, (rows, false), self.settings, self.limits)
     }
 
     /// The plans of bands that end at these rows; `plan`: of one.

@@ -46,7 +46,7 @@ impl TilePlan {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let of_blocks = self.of_rows_of_it(draws, seen, self.rows.clone(), settings, limits);
+        let of_blocks = self.of_rows_of_it(draws, seen, (self.rows.clone(), false), settings, limits);
         let draws_as_much = |of_blocks: &Self| self.may_be_large || !of_blocks.may_be_large;
         let better = |of_blocks: &Self| draws_as_much(of_blocks) && of_blocks.bytes() < self.bytes();
         of_blocks.filter(better).unwrap_or(self)
@@ -64,38 +64,21 @@ impl TilePlan {
         Self::of_rows(draws, seen.boxes(&rows), rows, culls_hidden, settings, limits)
     }
 
-    /// The same for some rows of what this one draws, with the same splats left to the graphics pipeline.
+    /// The same for some rows of what this one draws. With the same splats left to the graphics pipeline; or, if the rows have `own_room`, with those that have none in these rows'
+    /// own lists, in which no splat has more tiles than the rows have.
     pub(crate) fn of_rows_of_it(
         &self,
         draws: &[Draw<'_>],
         seen: &PotentiallyVisibleBlocks<'_>,
-        rows: Range<u32>,
+        (rows, own_room): (Range<u32>, bool),
         settings: &Settings,
         limits: &Limits,
     ) -> Option<Self> {
         let (size_px, all) = all_of(settings.size_px);
-        let boxes = seen.boxes(&rows);
-        let plan = Self::of_boxes(draws.len(), boxes, (size_px, all), limits, self.invocations)?;
-        plan.within(rows).in_one_piece(draws, self.hidden, limits)
-    }
-
-    /// The same with splats left to it that have no room in these rows' own lists, in which none has more tiles than the rows have.
-    pub(crate) fn of_rows_alone(
-        &self,
-        draws: &[Draw<'_>],
-        seen: &PotentiallyVisibleBlocks<'_>,
-        rows: Range<u32>,
-        settings: &Settings,
-        limits: &Limits,
-    ) -> Option<Self> {
-        let area = (settings.size_px, rows.clone());
+        let area = (size_px, if own_room { rows.clone() } else { all });
         let plan = Self::of_boxes(draws.len(), seen.boxes(&rows), area, limits, self.invocations)?;
-        plan.in_one_piece(draws, self.hidden, limits)
-    }
-
-    /// Bands are to save memory, which the counts of more pieces take.
-    fn in_one_piece(self, draws: &[Draw<'_>], culls_hidden: bool, limits: &Limits) -> Option<Self> {
-        Self { pieces: 1, ..self }.when_drawn(draws, culls_hidden, limits)
+        // Bands are to save memory, which the counts of more pieces take.
+        Self { pieces: 1, ..plan.within(rows) }.when_drawn(draws, self.hidden, limits)
     }
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
