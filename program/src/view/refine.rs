@@ -87,11 +87,14 @@ impl Viewer {
 
     /// The next step to the picture at rest, if there is one. `whole`: how all of it is drawn.
     pub fn next_refinement(&self, whole: &Settings) -> Option<Refinement> {
-        // Two pictures are compared as they are.
-        let sampled = self.comparing.is_none().then(|| self.sampled(whole));
-        let (samples, edges) =
-            sampled.map_or((Samples(1), whole.edges), |sampled| (sampled.samples, sampled.edges));
-        steps(self.has_leveled(whole) && self.is_hasty, samples, edges).nth(self.refined)
+        let is_leveled = self.has_leveled(whole) && self.is_hasty;
+        let of = |samples, edges| steps(is_leveled, samples, edges).nth(self.refined);
+        // How many samples there are takes the plan of a frame, which the steps before them do without.
+        of(Samples(1), whole.edges).or_else(|| {
+            // Two pictures are compared as they are.
+            let sampled = self.comparing.is_none().then(|| self.sampled(whole))?;
+            of(sampled.samples, sampled.edges)
+        })
     }
 
     /// Counts the splats that the picture at rest is made of, for the panel, by drawing it once more; 0 where a method does not list them.
