@@ -20,9 +20,9 @@ pub fn cube(folder: &Folder, name: &str) {
     folder.write(name, &corners.chain(faces.map(|face| format!("f {face}\n"))).collect::<String>());
 }
 
-/// Polygons have stairs for outlines in one sample; `surfel render` takes 8.
+/// Polygons have stairs for outlines in one sample, and so have points; `surfel render` takes 8.
 #[test]
-fn polygons_at_rest_have_the_samples_that_render_takes() {
+fn polygons_and_points_at_rest_have_the_samples_that_render_takes() {
     let (screen, folder) = (Screen::new(), Folder::new());
     cube(&folder, "a.obj");
     folder.splats("a.ply", 400);
@@ -30,6 +30,7 @@ fn polygons_at_rest_have_the_samples_that_render_takes() {
         ("a.obj", &[][..]),
         ("a.obj", &["--tonemap", "agx", "--cull", "list"]),
         ("a.ply", &["--samples", "4"]),
+        ("a.ply", &["--rasterizer", "affine-center"]),
     ] {
         let words = [&[file, "--size", "320x240"], &CAMERA[..], others].concat();
         let (whole, one) =
