@@ -10,6 +10,8 @@
 #define LIST_BLOCKS BIND_VISIBLE_BLOCKS
 #include "inc/list.glsl"
 #include "inc/levels.glsl"
+#include "inc/minor_axis.glsl"
+#include "inc/smooth_step.glsl"
 #include "tile/rect.glsl"
 #include "tile/corners.glsl"
 #include "tile/cut.glsl"
@@ -55,12 +57,25 @@ bool find_splat(out uint index, out uint place)
 }
 
 // What weights of a sharp surface are multiplied by, so that its sums are whole inside (inc/edges.glsl).
-float sum_of_sharp(Mapping m)
+//
+// Not where it ends by turning away: its outline is within c of the splat's radius and of the filter's where it faces the eye by the cosine f with f^2 / (2 tau) = c f + c h, with tau
+// by how much it turns over a radius (src/prepare/near_surfaces/sharp.rs) and h the filter's radius, in radii; what is flat or hollow has no such outline. And not where it is narrower than the
+// filter, as a side is that is seen edge-on: there its sum says how wide it is. What faces the eye has neither, whatever it does.
+//
+// `uv`: how u and v change along a pixel.
+float sum_of_sharp(uint index, Mapping m, vec4 uv)
 {
+    uint first = SHAPE_VECTORS * index;
+    float turn = ELLIPSES ? shapes[first + 2].w : 1.0;
     vec3 ray = ray_through(m.p);
     float facing = abs(dot(m.normal, ray)) / length(ray);
-    float x = clamp(facing / SHARP_FACING - 1.0, 0.0, 1.0);
-    return mix(1.0, SHARP_SUM, x * x * (3.0 - 2.0 * x));
+    float filter_radii = frame.filter_radius * ray.z / (frame.view_from_local_scale * shapes[first].w * m.unit);
+    float part = SHARP_REACH * turn;
+    float outline = part + sqrt(part * (part + 2.0 * filter_radii));
+    float h_px = frame.filter_radius * frame.focal_px;
+    float minor = sqrt(max(1.0 / (inverse_minor2(uv) * h_px * h_px) - 1.0, 0.0)); // unfiltered, over the filter's
+    float goes_on = smooth_step(facing / max(outline, 1e-6) - 1.0) * smooth_step((minor - SHARP_MINOR) / (1.0 - SHARP_MINOR));
+    return FORMULA(FORMULA_SHARP_SUM, mix(1.0, SHARP_SUM, max(smooth_step(facing / SHARP_FACING - 1.0), goes_on)));
 }
 
 // What planes do to it, as cut_in_box tells.
@@ -139,7 +154,8 @@ void main()
     float w0 = map.at_x0.z;
     float uv_scale = map.affine ? 1.0 : 1.0 / w0;
     float share = share_of(m) * own_weight(index);
-    share *= SHARP ? sum_of_sharp(m) : 1.0;
+    vec4 uv = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
+    share *= SHARP ? sum_of_sharp(index, m, uv) : 1.0;
     float blended = BLENDED ? weight_of_level(index) : 1.0;
     share *= blended;
     if (BLENDED) {
@@ -165,7 +181,7 @@ void main()
     }
     float signed_shift = TWO_SIDED && m.faces_away ? -m.shift : m.shift;
     records0[place] = vec4(map.x0_px, CLIPS || cut_by_planes ? -w0 : w0, signed_shift);
-    records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
+    records1[place] = uv;
     records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);
     records3[place] = uvec4(floatBitsToUint(normal.yz), color);
     if (CLIPS) {

@@ -262,8 +262,10 @@
 #define LEAST_SHIFT 1.0e-6            // Of its depth: a splat is shifted by as much at least, where it is shifted at all.
 #define MOST_EDGE_SURFACES 3        // Opaque surfaces behind each other that a pixel shows at their edges, at most.
 #define EDGE_LENGTHENING 16.0       // Of a slanted splat's epsilon where edges are covered in part (`inc/mapping.glsl`).
-#define SHARP_SUM 1.7               // Of a sharp surface that faces the eye, whose sums vary: what weights over the overlap are multiplied by (`inc/edges.glsl`).
-#define SHARP_FACING 0.3            // From this cosine between the normal and the ray on more and more, up to twice that.
+#define SHARP_SUM 1.7               // Of a sharp surface, whose sums vary: what weights over the overlap are multiplied by (`inc/edges.glsl`).
+#define SHARP_FACING 0.3            // All of it from twice this cosine between the normal and the ray on, from this one on more and more,
+#define SHARP_REACH 0.5             // or where no outline is within so much of the splat's radius and the filter's (`tile_project.comp.glsl`),
+#define SHARP_MINOR 0.3             // and the image is wider than so much of the filter's radius; all of it from the filter's radius on.
 #define WHOLE_EDGE_SUM 0.79         // From this sum over the overlap on a pixel is covered, unless the surface ends there.
 #define MOST_POLYGON_SAMPLES 4      // Samples of a pixel at which polygons are drawn, where they cover pixels in part.
 #define WHOLE_SEAM_SUM 0.4          // From this sum on, splats hide the polygons of the same surface: at a seam half of a surface's are there.

@@ -28,10 +28,13 @@
 //
 // Sharp surfaces are made of ellipses through the corners of triangles, slivers among them: at the corners of a flat side, and at its ridges, where
 // nothing lies beyond, A is a half of its mean, and less. There the curves tell what is covered (inc/clip_image.glsl), so that A may be too much: it is
-// SHARP_SUM times as much where the surface faces the eye, and not where it ends by turning away.
+// SHARP_SUM times as much, but where the surface ends by turning away or is seen edge-on (tile_project.comp.glsl).
 //
 // Limits: surfaces of which several lie within a few epsilon; A of a thin line of splats is too
 // small.
+
+#include "inc/minor_axis.glsl"
+#include "inc/smooth_step.glsl"
 
 const float ROOT_TWO_PI = 2.5066283;
 const float LN_2 = 0.69314718;
@@ -46,23 +49,12 @@ const float LEFT_OUT = 0.225;
 // C = x - y r^2 of a splat whose map has this change of u along x and y, and of v, per pixel.
 vec2 own_coverage(vec4 uv)
 {
-    // The larger singular value, squared, is 1 / L2^2.
-    float sum = dot(uv, uv);
-    float det = uv.x * uv.w - uv.y * uv.z;
-    float inverse_minor2 = 0.5 * (sum + sqrt(max(sum * sum - 4.0 * det * det, 0.0)));
-    float minor_px = inversesqrt(inverse_minor2);
-    float rho2 = max(1.0 - FILTER_PX * FILTER_PX * inverse_minor2, 0.0);
-    float x = clamp(2.0 * sqrt(rho2) * minor_px / FILTER_PX - 1.0, 0.0, 1.0);
-    float sureness = x * x * (3.0 - 2.0 * x); // from none at l2 = h / 2 to all at h
+    float inverse2 = inverse_minor2(uv); // 1 / L2^2
+    float minor_px = inversesqrt(inverse2);
+    float rho2 = max(1.0 - FILTER_PX * FILTER_PX * inverse2, 0.0);
+    float sureness = smooth_step(2.0 * sqrt(rho2) * minor_px / FILTER_PX - 1.0); // from none at l2 = h / 2 to all at h
     float slope = sureness * minor_px / (ROOT_TWO_PI * FILTER_PX);
     return vec2(0.5 * sureness + slope * rho2, slope);
-}
-
-// From 0 at x = 0 to 1 at 1.
-float smooth_step(float x)
-{
-    x = clamp(x, 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
 }
 
 // `summed`: A. `own`: C. `fall`: by how much A falls a pixel, over twice the decline of the kernel's logarithm at the center (kernel.glsl).

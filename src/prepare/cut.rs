@@ -12,7 +12,7 @@ use super::{
     level_words::LevelWords,
     levels::{ChunkLevels, LevelPart, Leveled},
     memory::Uploader,
-    near_surfaces,
+    near_surfaces::{self, sharp::Sharp},
     pack::{self, Packed},
     part::{Numbers, Part},
     pieces,
@@ -193,14 +193,20 @@ impl Cut<'_, '_> {
             _ => one_for_all(Overlaps::of(splats).mean),
         };
         let is_sharp = !splats.clips.is_empty();
-        let of_each = auto && exact && (transparent || !object.closed || is_sharp);
-        let shares = match of_each {
-            true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
-            false => None,
+        let radii = Epsilon::auto_radii(transparent);
+        let Sharp { shares, turns } = match is_sharp {
+            true => Sharp::of(splats, radii),
+            false => Sharp::default(),
+        };
+        let shares = match auto && exact {
+            true if is_sharp => Some(shares),
+            true if transparent || !object.closed => near_surfaces::shares(splats, radii),
+            _ => None,
         };
         // Before it is cut, so that chunks are compact; and after what needs room of its own.
         let sequence = Sequence::of(splats, order);
-        let part = Part { number, object, numbers, transparent, inverse_overlaps, epsilon, shares, levels };
+        let part =
+            Part { number, object, numbers, transparent, inverse_overlaps, epsilon, shares, turns, levels };
         if splats.clips.is_empty() {
             return self.sequence(&part, &sequence);
         }

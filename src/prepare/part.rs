@@ -19,6 +19,8 @@ pub(super) struct Part<'a> {
     pub epsilon: Option<Epsilon>,
     /// Of the object's splats, where they have any.
     pub shares: Option<Vec<f32>>,
+    /// By how much a surface with sharp edges turns away near each; of others none.
+    pub turns: Vec<f32>,
     pub levels: Option<(&'a Leveled, ChunkLevels)>,
 }
 
@@ -47,6 +49,7 @@ impl Part<'_> {
     pub fn beside(&self) -> Beside<'_> {
         Beside {
             shares: self.shares.as_deref(),
+            turns: &self.turns,
             inverse_overlaps: Some(&self.inverse_overlaps),
             levels: self.levels,
         }

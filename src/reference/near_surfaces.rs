@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::tangents::tangents;
-use crate::scene::Splats;
+use crate::scene::{Shapes, Splats};
 
 /// A splat among others.
 struct Oriented {
@@ -74,4 +74,32 @@ pub(super) fn shares(splats: &Splats, radii: f64) -> Vec<f64> {
         }
     }
     shares
+}
+
+/// By how much a surface that curves end turns away near each splat by its radius r; 1 of disks, which have no room to tell it. The largest r sin θ / d over those whose centers are within 1.5 radii, d away, whose
+/// normals are θ, at most 60°, off, and that lie behind the plane, by d sin θ / 4 at least and by d sin θ at most.
+pub(super) fn turns(splats: &Splats) -> Vec<f64> {
+    if let Shapes::Disks { .. } = splats.shapes {
+        return vec![1.0; splats.len()];
+    }
+    let mut turns = vec![0.0; splats.len()];
+    let drawn: Vec<usize> = (0..splats.len()).filter(|&i| splats.defect(i).is_none()).collect();
+    let frame = |i: usize| {
+        let (s, t) = tangents(&splats.shapes, i);
+        (splats.positions[i], s.normalize().cross(t.normalize()).normalize())
+    };
+    for &i in &drawn {
+        let (center, normal) = frame(i);
+        let radius = splats.major_radius(i);
+        for &other in drawn.iter().filter(|other| **other != i) {
+            let (at, its_normal) = frame(other);
+            let (to, cosine) = (at - center, its_normal.dot(normal));
+            let most = to.length() * normal.cross(its_normal).length();
+            let behind = -to.dot(normal);
+            if cosine >= 0.5 && to.length() <= 1.5 * radius && behind > 0.25 * most && behind <= most {
+                turns[i] = f64::max(turns[i], radius * most / to.length_squared());
+            }
+        }
+    }
+    turns
 }

@@ -78,13 +78,33 @@ pub(super) fn evened(splats: &Splats, overlaps: Vec<f64>) -> Vec<f64> {
     vec![mean; overlaps.len()]
 }
 
-/// How many times weights of splats that curves end, and of those beside them, count by the cosine between normal and ray: the sums of flat
-/// sides fall toward ridges, where the curves tell what is covered. Not where the surface ends by turning away.
-pub(super) fn sum_of_sharp(splats: &Splats, cosine: f64) -> f64 {
-    if splats.clips.is_empty() {
-        return 1.0;
+/// A splat of a surface that curves end, as it is seen.
+pub(super) struct SharpSplat {
+    /// By how much the surface turns away over a radius (`near_surfaces.rs`).
+    pub turn: f64,
+    /// Between normal and ray.
+    pub cosine: f64,
+    /// The filter's radius at its depth, in radii.
+    pub filter_radii: f64,
+    /// The minor semi-axis of its image, unfiltered, over the filter's radius.
+    pub minor: f64,
+}
+
+impl SharpSplat {
+    /// How many times its weights count: sums fall toward ridges and corners of triangles, where the curves tell what is covered. Not where the
+    /// surface ends by turning away: on one that turns by τ a radius, an outline that is half of the splat and of the filter away has the cosine f with f² = τ (f + h).
+    /// What is narrower than the filter may be a side that is seen edge-on, whose sum says how wide it is; but not where it faces the eye.
+    pub fn sum(&self) -> f64 {
+        let half = 0.5 * self.turn;
+        let outline = half + (half * half + self.turn * self.filter_radii).sqrt();
+        let goes_on = match outline > 0.0 {
+            true => smooth_step(self.cosine / outline - 1.0),
+            false => 1.0,
+        };
+        let is_wide = smooth_step((self.minor - 0.3) / 0.7);
+        let faces = smooth_step((self.cosine - 0.3) / 0.3);
+        1.0 + 0.7 * faces.max(goes_on * is_wide)
     }
-    1.0 + 0.7 * smooth_step((cosine.abs() - 0.3) / 0.3)
 }
 
 fn all_along_x(splats: &Splats) -> Vec<Among> {

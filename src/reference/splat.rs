@@ -12,7 +12,8 @@ use super::ewa::Stretched;
 use super::filter::{adjust, area_share, lengthened, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
-use super::overlap::{evened, overlaps, sum_of_sharp};
+use super::near_surfaces::turns;
+use super::overlap::{SharpSplat, evened, overlaps};
 use super::paper_filter::adjust_paper;
 use super::surface::Attributes;
 use super::tangents::tangents;
@@ -111,13 +112,16 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
             // Where splats meet polygons, their sum is to fall toward their border.
             false => evened(&object.splats, overlaps(&object.splats, settings.kernel)),
         });
+        let is_sharp = overlaps.is_some() && !object.splats.clips.is_empty();
+        let turns = is_sharp.then(|| turns(&object.splats));
         let rule = EpsilonRule::of(scene, number, settings, opacity);
         let left_out = left_out(scene, opacity);
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
             if defect.is_none() && opacity != Opacity::Invisible {
-                let overlap = overlaps.as_ref().map(|overlaps| overlaps[i]);
+                let turn = turns.as_ref().map(|turns| turns[i]);
+                let overlap = overlaps.as_ref().map(|overlaps| (overlaps[i], turn));
                 let splat = prepare_one(
                     object,
                     i,
@@ -147,7 +151,7 @@ pub(super) fn culls((settings, is_cut_open): (&Settings, bool), closed: bool, op
 fn prepare_one(
     object: &Object,
     i: usize,
-    (cull, opacity, overlap, left_out): (bool, Opacity, Option<f64>, f64),
+    (cull, opacity, overlap, left_out): (bool, Opacity, Option<(f64, Option<f64>)>, f64),
     (rule, polygon_reach): (&EpsilonRule, f64),
     view: &View,
     settings: &Settings,
@@ -217,7 +221,11 @@ fn prepare_one(
     };
     let image_size = map.size([projected(center, s), projected(center, t)]);
     let cosine = outward.dot(center.normalize()).abs();
-    let overlap = overlap.map(|overlap| overlap / sum_of_sharp(splats, cosine));
+    let overlap = overlap.map(|(overlap, turn)| {
+        let filter_radii = h * center.z / splats.major_radius(i);
+        let minor = ((minor / h).powi(2) - 1.0).max(0.0).sqrt();
+        overlap / turn.map_or(1.0, |turn| SharpSplat { turn, cosine, filter_radii, minor }.sum())
+    });
     let low_pass = (in_front && settings.filter == Filter::Max).then(|| LowPass {
         center: center.truncate() / center.z,
         radius: h,

@@ -48,6 +48,23 @@ fn clipped_edges_cover_pixels_in_part_as_the_oracles_do() {
     }
 }
 
+/// What is flat, what bulges and what is hollow, seen at a slant: sums count more where a surface can't end by turning away.
+#[test]
+fn parts_seen_at_a_slant_cover_pixels_in_part_as_the_oracles_do() {
+    let mut headless = shared();
+    let flat = (parts::cube(5), [0.3, 0.8, 4.0]);
+    let bulging = (parts::cylinder(24, 4, 2.0), [1.5, 1.0, 2.5]);
+    let hollow = (parts::bored_block(24, 2), [0.2, 0.5, 2.4]);
+    for (mesh, eye) in [flat, bulging, hollow] {
+        let (splats, report) = sharp_splats(&mesh, &SharpOptions::default(), &()).unwrap();
+        let object = Object { name: String::new(), splats, closed: report.closed };
+        let mut hard = scenes::clipped();
+        hard.camera = builder::camera(eye, [0.0; 3]);
+        hard.scene = Scene { objects: vec![object], ..Scene::default() };
+        agrees_at_edges(&mut headless, &hard, |_| {});
+    }
+}
+
 /// The clips of a scene, given to the splats of another one, some of which have none.
 fn in_alpha(alpha: f32) -> Hard {
     let mut hard = scenes::clipped();

@@ -1,6 +1,6 @@
 //! Plates, clouds that nobody oriented, and what is hostile.
 
-use super::*;
+use super::{sharp::Sharp, *};
 use crate::{
     math::random::SplitMix,
     scene::{Clip, ClipCurve, Clips, Colors},
@@ -66,8 +66,9 @@ fn surfaces_with_sharp_edges_have_the_epsilon_of_what_their_planes_meet() {
         normals.fill(Vec3::Z);
     }
     assert_eq!(shares(&behind, 1.0), None, "as a surface with noise");
-    let flat = shares(&sharp(behind), 1.0).unwrap();
-    assert!(flat[1..].iter().all(|share| (*share - 0.05).abs() < 1e-6), "{:?}", &flat[..9]);
+    let flat = Sharp::of(&sharp(behind), 1.0);
+    assert!(flat.shares[1..].iter().all(|share| (*share - 0.05).abs() < 1e-6), "{:?}", &flat.shares[..9]);
+    assert!(flat.turns.iter().all(|turn| *turn == 0.0), "{:?}", &flat.turns[..9]);
     let mut bent = plate(0.0, 0.0, true);
     bent.keep(&[vec![true; 900], vec![false; 900]].concat());
     if let Shapes::Disks { normals, .. } = &mut bent.shapes {
@@ -77,13 +78,27 @@ fn surfaces_with_sharp_edges_have_the_epsilon_of_what_their_planes_meet() {
         }
     }
     // 1.5 radii away of a cylinder of 10.
-    let bent = shares(&sharp(bent), 1.0).unwrap();
+    let hollow = turned(bent.clone());
+    let Sharp { shares: bent, turns } = Sharp::of(&sharp(bent), 1.0);
     let of_few = bent[1..].iter().filter(|share| !(0.05..0.226).contains(*share)).count();
     assert!(
         of_few == 0 && bent.iter().filter(|share| **share > 0.06).count() > 800,
         "{of_few} {:?}",
         &bent[..9]
     );
+    // A splat's radius is a tenth of the cylinder's: a chord's sine over its length.
+    let unlike = turns[1..].iter().filter(|turn| !(0.05..0.101).contains(*turn)).count();
+    assert!(unlike == 0, "{unlike} of {:?}", &turns[..9]);
+    let from_inside = Sharp::of(&sharp(hollow), 1.0).turns;
+    assert!(from_inside.iter().all(|turn| *turn == 0.0), "{:?}", &from_inside[..9]);
+}
+
+/// With normals the other way.
+fn turned(mut splats: Splats) -> Splats {
+    if let Shapes::Disks { normals, .. } = &mut splats.shapes {
+        normals.iter_mut().for_each(|normal| *normal = -*normal);
+    }
+    splats
 }
 
 #[test]
