@@ -83,7 +83,7 @@ pub unsafe extern "C" fn surfel_renderer_destroy(renderer: *mut SurfelRenderer) 
 }
 
 /// Records the upload of a scene, which frames recorded later may show; `scene` may be destroyed at once. `commands` must be recording,
-/// outside of rendering, and be submitted to the device's queue before `surfel_device_end_epoch` is called. Where this fails, they hold
+/// outside of rendering, and be submitted to the device's queue before frames that show the scene, in any epoch; the scene on the device is destroyed after they have run, or if they never run. Where this fails, they hold
 /// copies to what is gone, and must not be submitted. Splats that can't be drawn are left out and counted.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_upload(
@@ -106,8 +106,8 @@ pub unsafe extern "C" fn surfel_upload(
 
 /// Records a change of splats of a scene that was made `updatable`: of its object with this number, those from number `first` on become `splats`, of
 /// which name, `closed` and `epsilon` mean nothing: of the object's own kind (disks or ellipses; opaque where the object is). How much the
-/// surface overlaps itself, and how near another one is, is not measured again. Frames recorded from now on show it. `commands` as for
-/// `surfel_upload`; arrays are copied at once, into memory that the renderer keeps, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
+/// surface overlaps itself, and how near another one is, is not measured again. Frames recorded from now on show it. `commands` must be recording,
+/// outside of rendering, and be submitted before `surfel_device_end_epoch` is called; arrays are copied at once, into memory that the renderer keeps, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
 /// meanwhile.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_update(

@@ -7,7 +7,7 @@ use crate::{
     prepare::{DynamicSplats, PreparedScene},
     renderer::Renderer,
     scene::Scene,
-    vk::Staging,
+    vk::{Staging, Upload},
 };
 
 impl Renderer {
@@ -17,15 +17,18 @@ impl Renderer {
     /// As [`Renderer::prepare`]. Then the commands hold copies to what is gone: they must not be submitted.
     ///
     /// # Safety
-    /// `commands` must be recording, outside of rendering, and be submitted to the device's queue, in the epoch that is not ended yet
-    /// ([`crate::vk::Device::end_epoch`]).
+    /// `commands` must be recording, outside of rendering, and be submitted to the device's queue, before any frame that shows the scene; in whichever epoch, for
+    /// what is copied from goes when the device has told that the copies have run. The scene is alive until then, or they never run.
     pub unsafe fn upload(&self, commands: vk::CommandBuffer, scene: &Scene) -> Result<PreparedScene> {
+        let upload = Upload::default();
         let mut record = |staging: Staging| {
-            // SAFETY: this function's contract. The batch is dropped here, and its memory waits for the epoch.
-            unsafe { staging.record(commands) };
+            // SAFETY: this function's contract. The scene keeps the batch until it has run.
+            unsafe { staging.record_and_tell(commands) };
+            upload.keep(staging);
             Ok(())
         };
-        self.prepare(scene, &mut record, &|_, _| {})
+        let prepared = self.prepare(scene, &mut record, &|_, _| {})?;
+        Ok(PreparedScene { upload: upload.begin(self.device()), ..prepared })
     }
 
     /// A scene of splats that the host writes on the device, by a compute shader or by copies: each time before a frame reads them, with a barrier to

@@ -81,6 +81,7 @@ pub(super) fn cut(
             bounds: bounds_of(scene),
             changes: Default::default(),
             rooms: Vec::new(),
+            upload: Default::default(),
         },
     };
     for (number, object) in scene.objects.iter().enumerate() {

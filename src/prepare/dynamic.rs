@@ -165,6 +165,7 @@ impl PreparedScene {
             bounds: None,
             changes: Default::default(),
             rooms: Vec::new(),
+            upload: Default::default(),
         };
         scene.set_dynamic(splats)?;
         Ok(scene)

@@ -59,7 +59,7 @@ pub(crate) use updatable::{Changes, RoomOf, Update};
 use crate::{
     error::{Error, Result},
     scene::{Bounds, DefectCounts, Light, Scene, Storage},
-    vk::{Device, Limits, Staging},
+    vk::{Device, Limits, Staging, Upload},
 };
 
 /// A scene on the device. Chunks have the order of the scene's objects, and their splats that of its [`Storage`].
@@ -89,6 +89,9 @@ pub struct PreparedScene {
     pub(crate) changes: Changes,
     /// Of objects that have room for more splats, by their number.
     pub(crate) rooms: Vec<Option<RoomOf>>,
+    /// What it is copied from, until that has run.
+    #[expect(dead_code, reason = "kept for its drop")]
+    pub(crate) upload: Upload,
 }
 
 impl PreparedScene {

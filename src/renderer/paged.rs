@@ -67,6 +67,7 @@ impl PagedScene {
             bounds: None,
             changes: Default::default(),
             rooms: Vec::new(),
+            upload: Default::default(),
         };
         Ok(Self { pager, most_bytes, prepared, groups: Vec::new(), is_there, is_full: false })
     }

@@ -16,15 +16,16 @@ use super::{
     instance::Instance,
     requirements::offered,
     result::VkResultExt,
+    uploads::Uploads,
     wanted::Wanted,
 };
 use crate::error::{ErrorKind, Result};
 
 /// A logical device; clones share it. See [the module](super) for how things die.
 #[derive(Clone)]
-pub struct Device(Arc<Shared>);
+pub struct Device(pub(super) Arc<Shared>);
 
-struct Shared {
+pub(super) struct Shared {
     raw: ash::Device,
     instance: Instance,
     physical: vk::PhysicalDevice,
@@ -37,6 +38,7 @@ struct Shared {
     done: AtomicU64,
     // `None` only while `drop` runs. Locked together, so that there is one order of locks.
     memory: Mutex<Option<(Source, Garbage)>>,
+    pub(super) uploads: Uploads,
     /// Whether a [`super::Queue`] counts the epochs; a host does so for a borrowed device.
     queue_taken: AtomicBool,
     origin: Origin,
@@ -153,6 +155,7 @@ impl Device {
             epoch: AtomicU64::new(FIRST_EPOCH),
             done: AtomicU64::new(FIRST_EPOCH - 1),
             memory: Mutex::new(Some((source, Garbage::default()))),
+            uploads: Uploads::default(),
             queue_taken: AtomicBool::new(!owned),
             origin,
             // SAFETY: both are alive and belong together.
@@ -226,6 +229,7 @@ impl Device {
     /// The device has finished every submission up to the one whose [`Device::end_epoch`] gave `epoch`.
     pub unsafe fn epoch_done(&self, epoch: u64) {
         self.0.done.fetch_max(epoch, Ordering::AcqRel);
+        self.0.uploads.let_go();
         if let Some((allocator, garbage)) = self.memory().as_mut() {
             // SAFETY: this function's contract.
             unsafe { garbage.collect(epoch, &self.0.raw, allocator) };

@@ -49,6 +49,7 @@ mod stand_ins;
 mod surface;
 #[cfg(feature = "view")]
 mod swapchain;
+mod uploads;
 mod validation;
 mod wanted;
 
@@ -96,6 +97,7 @@ pub use stand_ins::StandIns;
 pub use surface::{Surface, Window};
 #[cfg(feature = "view")]
 pub use swapchain::{Swapchain, SwapchainImage, Turn};
+pub(crate) use uploads::Upload;
 pub use validation::{Validation, arm_validation_across_submits};
 
 /// One shader stage of a pipeline: its name for messages, its SPIR-V, its specialization constants.

@@ -2,7 +2,7 @@
 
 use std::sync::{
     Arc,
-    atomic::{AtomicBool, Ordering},
+    atomic::{AtomicBool, AtomicU32, Ordering},
 };
 
 use ash::vk;
@@ -20,6 +20,10 @@ pub struct Staging {
     device: Device,
     buffer: Buffer,
     used: usize,
+    /// Bytes that it has room for.
+    room: usize,
+    /// Where in the buffer the device writes that the copies have run.
+    told: u64,
     copies: Vec<(vk::Buffer, vk::BufferCopy)>,
     recorded: Arc<AtomicBool>,
 }
@@ -30,9 +34,22 @@ impl Staging {
     /// # Errors
     /// Whatever the driver or the allocator answers.
     pub fn new(device: &Device, name: &str, bytes: u64) -> Result<Self> {
-        let desc = BufferDesc { name, size: bytes, usage: vk::BufferUsageFlags::TRANSFER_SRC };
-        let buffer = Buffer::new(device, desc, MemoryUse::Upload)?;
-        Ok(Self { device: device.clone(), buffer, used: 0, copies: Vec::new(), recorded: Arc::default() })
+        let told = bytes.next_multiple_of(TOLD_BYTES);
+        let usage = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
+        let desc = BufferDesc { name, size: told + TOLD_BYTES, usage };
+        let mut buffer = Buffer::new(device, desc, MemoryUse::Upload)?;
+        // SAFETY: it is new.
+        let word = unsafe { buffer.bytes_mut() }.get_mut(told as usize..);
+        word.into_iter().flatten().for_each(|byte| *byte = 0);
+        Ok(Self {
+            device: device.clone(),
+            buffer,
+            used: 0,
+            room: bytes as usize,
+            told,
+            copies: Vec::new(),
+            recorded: Arc::default(),
+        })
     }
 
     /// Adds bytes for `target`, whose usage includes `TRANSFER_DST`, from its byte `offset` on.
@@ -45,7 +62,8 @@ impl Staging {
         }
         let begin = self.used;
         // SAFETY: `record` asks that nothing be added while the device reads.
-        let room = unsafe { self.buffer.bytes_mut() }.get_mut(begin..begin + bytes.len());
+        let all = unsafe { self.buffer.bytes_mut() }.get_mut(..self.room);
+        let room = all.and_then(|all| all.get_mut(begin..begin + bytes.len()));
         let fits = offset.checked_add(bytes.len() as u64).is_some_and(|end| end <= target.size());
         let Some(room) = room.filter(|_| fits) else {
             let problem = format!("no room for {} bytes after {begin}, or in their target", bytes.len());
@@ -85,7 +103,47 @@ impl Staging {
         }
         self.recorded.store(true, Ordering::Release);
     }
+
+    /// The same, and that the device tells when it has run them ([`Self::has_run`]).
+    ///
+    /// # Safety
+    /// As [`Self::record`]; but they are submitted in any epoch, while the batch is there, or never.
+    pub(crate) unsafe fn record_and_tell(&self, commands: vk::CommandBuffer) {
+        let device = self.device.raw();
+        let barrier = |[from, to]: [vk::PipelineStageFlags2; 2], [of, by]: [vk::AccessFlags2; 2]| {
+            let barriers = [vk::MemoryBarrier2::default()
+                .src_stage_mask(from)
+                .src_access_mask(of)
+                .dst_stage_mask(to)
+                .dst_access_mask(by)];
+            let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+            // SAFETY: this function's contract.
+            unsafe { device.cmd_pipeline_barrier2(commands, &info) };
+        };
+        let (copy, clear, host) =
+            (vk::PipelineStageFlags2::COPY, vk::PipelineStageFlags2::CLEAR, vk::PipelineStageFlags2::HOST);
+        let none = vk::AccessFlags2::NONE;
+        // SAFETY: this function's contract; the word lies within the buffer, at a multiple of 4, and nothing else writes it.
+        unsafe {
+            self.record(commands);
+            barrier([copy, clear], [none, none]);
+            device.cmd_fill_buffer(commands, self.buffer.raw(), self.told, TOLD_BYTES, HAS_RUN);
+            barrier([clear, host], [vk::AccessFlags2::TRANSFER_WRITE, vk::AccessFlags2::HOST_READ]);
+        }
+    }
+
+    /// Whether the device has told that it has run the copies; what they are submitted in may go on.
+    pub(super) fn has_run(&self) -> bool {
+        let word = self.buffer.mapped().map(|first| first.as_ptr().wrapping_add(self.told as usize));
+        let word = word.map(|word| word.cast::<AtomicU32>()).filter(|word| word.is_aligned());
+        // SAFETY: within the buffer, whose memory is mapped as long as it is here, and coherent; aligned. The device writes all of it at once.
+        word.is_some_and(|word| unsafe { &*word }.load(Ordering::Acquire) == HAS_RUN)
+    }
 }
+
+/// Behind a batch's bytes is a word, which the device sets to this where it is to tell that it has run the copies.
+const TOLD_BYTES: u64 = 4;
+const HAS_RUN: u32 = 1;
 
 /// Makes copies before visible to the vertex and compute stages of every later command, and as indices.
 ///

@@ -8,6 +8,7 @@ mod changing;
 mod conventions;
 mod depth_alone;
 mod faults;
+mod late;
 mod memory;
 mod mirrors;
 mod objects;
