@@ -145,9 +145,9 @@ fn cost(
 #[test]
 fn a_frame_like_those_before_takes_nothing_from_the_heap() {
     let mut wrong = Vec::new();
+    let mut beside = Beside::new(Style { validates: false, ..REVERSED });
     for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective, Rasterizer::Quad] {
         for alpha in [1.0, 0.5] {
-            let mut beside = Beside::new(Style { validates: false, ..REVERSED });
             let mut ball = scenes::sphere(SPLATS, DVec3::ZERO);
             ball.splats.colors = Colors::Uniform([0.5, 0.6, 0.7, alpha]);
             let ball = beside.upload(&Scene { objects: vec![ball], ..Scene::default() });
@@ -165,18 +165,17 @@ fn a_frame_like_those_before_takes_nothing_from_the_heap() {
                     ));
                 }
             }
-            drop(ball);
-            beside.end();
         }
     }
+    beside.end();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 /// Nor do frames that planes cut, that are timed, or that have a budget.
 #[test]
 fn frames_that_are_cut_or_timed_or_have_a_budget_take_nothing_from_the_heap() {
-    let of = |what: &str, rasterizer, profile| {
-        let mut beside = Beside::new(Style { validates: false, ..REVERSED });
+    let mut beside = Beside::new(Style { validates: false, ..REVERSED });
+    let mut of = |what: &str, rasterizer, profile| {
         let has_budget = what == "budget";
         let ball = Scene {
             objects: vec![scenes::sphere(SPLATS, DVec3::ZERO)],
@@ -201,10 +200,7 @@ fn frames_that_are_cut_or_timed_or_have_a_budget_take_nothing_from_the_heap() {
         let taken = moves
             .iter()
             .map(|moves| cost(&mut beside, &placed, &settings, (*moves, FEW_FRAMES), profile).allocations);
-        let taken = taken.max().unwrap();
-        drop(ball);
-        beside.end();
-        taken
+        taken.max().unwrap()
     };
     let mut found = Vec::new();
     for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
@@ -214,6 +210,7 @@ fn frames_that_are_cut_or_timed_or_have_a_budget_take_nothing_from_the_heap() {
             found.push((what, rasterizer, of(what, rasterizer, profile)));
         }
     }
+    beside.end();
     assert!(found.iter().all(|(.., taken)| *taken == 0), "{found:?}");
 }
 

@@ -59,11 +59,13 @@ fn frames_of_whatever_a_scene_holds_take_nothing_from_the_heap() {
         ("numbers, motion and tints", of(disks())),
     ];
     let mut found = Vec::new();
+    let mut besides =
+        [false, true].map(|tells_objects| Beside::new(Style { validates: false, tells_objects, ..REVERSED }));
     for (name, scene) in kinds {
+        let tells_objects = name.starts_with("numbers");
+        let beside = &mut besides[usize::from(tells_objects)];
+        let prepared = beside.upload(&scene);
         for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
-            let tells_objects = name.starts_with("numbers");
-            let mut beside = Beside::new(Style { validates: false, tells_objects, ..REVERSED });
-            let prepared = beside.upload(&scene);
             let settings = Settings { size_px: [160, 120], rasterizer, ..Settings::default() };
             let at = Placement { translation: DVec3::new(0.1, 0.3, -0.2), ..Placement::default() };
             let mut placed = [Placed::at_home(&prepared), Placed::new(&prepared, at)];
@@ -72,14 +74,12 @@ fn frames_of_whatever_a_scene_holds_take_nothing_from_the_heap() {
                 placed[1].tint = [0.5, 1.0, 1.0, 1.0];
             }
             for moves in [false, true] {
-                let Cost { allocations, .. } =
-                    cost(&mut beside, &placed, &settings, (moves, FEW_FRAMES), None);
+                let Cost { allocations, .. } = cost(beside, &placed, &settings, (moves, FEW_FRAMES), None);
                 found.push((name, rasterizer, moves, allocations));
             }
-            drop(prepared);
-            beside.end();
         }
     }
+    besides.into_iter().for_each(Beside::end);
     println!("{found:?}");
     assert!(found.iter().all(|(.., allocations)| *allocations == 0), "{found:#?}");
 }
