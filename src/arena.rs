@@ -62,6 +62,13 @@ impl Arena {
         Ok(list.into_bump_slice())
     }
 
+    /// A list of the same values, to be changed.
+    pub fn copied<T: Copy>(&self, values: &[T]) -> ArenaVec<'_, T> {
+        let mut list = self.growing();
+        list.extend_from_slice_copy(values);
+        list
+    }
+
     /// A list to be filled.
     pub fn growing<T>(&self) -> ArenaVec<'_, T> {
         const { assert!(!std::mem::needs_drop::<T>(), "what is in an arena is not dropped") };

@@ -4,7 +4,7 @@
 //
 // Visible ones are looked for in blocks of BLOCK_SPLATS splats, those that the host lists: not those that face away, nor those elsewhere. It lists runs of blocks, of
 // all chunks one behind the other, each by the place of its first block among all that are listed, and the number of that block in its chunk. Before the runs are the rows
-// of tiles that splats are looked for in, the first, and that behind the last; and how many runs there are. Bits of all chunks lie one behind the other, those of each from
+// of tiles that splats are looked for in, the first, and that behind the last; and how many runs there are. Behind the runs is where each chunk's blocks begin among all, and where those of the last one end. Bits of all chunks lie one behind the other, those of each from
 // `frame.first_record` on, which begins a block. Large ones are looked for in all blocks of a chunk, which has bits of its own.
 
 #include "inc/groups.glsl"
@@ -21,7 +21,7 @@ layout(constant_id = SPEC_LARGE_LIST) const bool LARGE_LIST = false;
 layout(set = 1, binding = LIST_BLOCKS, std430) readonly buffer Blocks {
     uvec2 visible_rows;
     uint visible_runs;
-    uint visible_words[]; // two a run
+    uint visible_words[]; // two a run; then one a chunk, and the end
 };
 
 uint words_of_chunk()
@@ -32,6 +32,12 @@ uint words_of_chunk()
 uint first_word_of_chunk()
 {
     return frame.first_record / WORD;
+}
+
+// The first word of the chunk with this number; of the number behind the last one, the end.
+uint first_word_of(uint chunk)
+{
+    return visible_words[2 * visible_runs + chunk] * BLOCK_WORDS;
 }
 
 // The block of one of the chunk's words, in its chunk, with what the host knows of all of its splats.

@@ -69,7 +69,9 @@ impl<'a> Floor<'a> {
         survivors: bool,
     ) -> Result<Self> {
         let device = headless.device();
+        let arena = Arena::new();
         let draws = passes::draws(
+            &arena,
             Placed::at_home(scene),
             (camera, DepthRange::default()),
             settings,
@@ -129,7 +131,9 @@ impl<'a> Floor<'a> {
     }
 
     fn record(&mut self, headless: &Headless, profile: Option<Profile>, precompute: bool) -> Result<()> {
+        let arena = Arena::new();
         let draws = passes::draws(
+            &arena,
             Placed::at_home(self.scene),
             (&self.camera, DepthRange::default()),
             &self.settings,
@@ -145,7 +149,6 @@ impl<'a> Floor<'a> {
         let SlotParts { descriptors, execution, .. } = self.slot.parts()?;
         let place = Place::Device(&headless.renderer.shaders, descriptors);
         let inputs = Inputs { draws: &draws, ..Inputs::new(&self.camera, &self.settings, place) };
-        let arena = Arena::new();
         let mut graph = Graph::new(&arena);
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut imports = Vec::new();

@@ -48,7 +48,9 @@ pub fn draw_as_published(
     let pixels = Buffer::new(device, desc, MemoryUse::Readback)?;
     let mut slot = FrameSlot::new(device);
 
+    let arena = Arena::new();
     let draws = passes::draws(
+        &arena,
         Placed::at_home(scene),
         (camera, DepthRange::default()),
         settings,

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::scene::{Camera, Splats};
+use crate::scene::{Camera, Splats, ViewFromWorld};
 
 /// `local = (world − origin) · scale`.
 ///
@@ -82,17 +82,25 @@ impl Rebase {
 
     /// The motion into the view space of a camera.
     pub fn view_from_local(&self, camera: &Camera) -> ViewFromLocal {
-        let view = camera.view_from_world();
+        self.view_from(&camera.view_from_world())
+    }
+
+    /// The same, by that camera's own motion.
+    pub(crate) fn view_from(&self, view: &ViewFromWorld) -> ViewFromLocal {
         let origin_in_view = view.point(self.origin);
-        let unit = power_of_two_above(origin_in_view.length().max(self.scale.recip()));
-        let view_from_world_scale = unit.recip();
+        let view_from_world_scale = self.unit_of_view(origin_in_view.length()).recip();
         ViewFromLocal {
             rotation: view.rotation,
             translation: origin_in_view * view_from_world_scale,
             view_from_local_scale: view_from_world_scale / self.scale,
             view_from_world_scale,
-            origin_from_eye: (self.origin - camera.eye) * view_from_world_scale,
+            origin_from_eye: (self.origin - view.eye) * view_from_world_scale,
         }
+    }
+
+    /// The unit of view space in the world's, for an eye that is so far from the origin.
+    pub(crate) fn unit_of_view(&self, distance: f64) -> f64 {
+        power_of_two_above(distance.max(self.scale.recip()))
     }
 }
 
@@ -114,9 +122,18 @@ impl ViewFromLocal {
     }
 }
 
-/// The smallest power of two that is not below a length, within f64's own exponents, also for its reciprocal.
+/// The smallest power of two that is not below a length, within f64's own exponents, also for its reciprocal. By its bits: logarithms would be a tenth of what a small object costs a frame.
 fn power_of_two_above(length: f64) -> f64 {
-    if length > 0.0 { length.log2().ceil().clamp(-1000.0, 1000.0).exp2() } else { 1.0 }
+    const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
+    const BIAS: u64 = f64::MAX_EXP as u64 - 1;
+    if length > 0.0 {
+        let bits = length.to_bits();
+        let fraction = bits & ((1 << FRACTION_BITS) - 1);
+        let exponent = (bits >> FRACTION_BITS) + u64::from(fraction != 0);
+        f64::from_bits(exponent.clamp(BIAS - 1000, BIAS + 1000) << FRACTION_BITS)
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]
@@ -155,6 +172,30 @@ mod tests {
             let step = rebase.point(pair[1]).as_vec3() - rebase.point(pair[0]).as_vec3();
             // One part in a million of a step: f64 at 5e5 holds 6e-11, which is the rest.
             assert!((f64::from(step.x) / (1e-5 * rebase.scale) - 1.0).abs() < 2e-5, "{step}");
+        }
+    }
+
+    #[test]
+    fn units_are_the_next_powers_of_two() {
+        for (length, expected) in
+            [(1.0, 1.0), (1.0 + f64::EPSILON, 2.0), (0.75, 1.0), (1e-12, 2_f64.powi(-39))]
+        {
+            assert_eq!(power_of_two_above(length), expected, "{length}");
+        }
+        for length in [0.0, -1.0, f64::NAN] {
+            assert_eq!(power_of_two_above(length), 1.0, "{length}");
+        }
+        let ends = [2_f64.powi(-1000), 2_f64.powi(1000)];
+        for (length, end) in
+            [(5e-324, 0), (1e-310, 0), (1e-302, 0), (1e302, 1), (f64::MAX, 1), (f64::INFINITY, 1)]
+        {
+            assert_eq!(power_of_two_above(length), ends[end], "{length}");
+        }
+        for exponent in -999..1000 {
+            let power = 2_f64.powi(exponent);
+            for (length, expected) in [(power, power), (0.51 * power, power), (1.01 * power, 2.0 * power)] {
+                assert_eq!(power_of_two_above(length), expected, "{length}");
+            }
         }
     }
 

@@ -165,7 +165,7 @@ impl Renderer {
         let settings = &*passes::within_budget(&arena, &[Placed::at_home(scene)], camera, settings);
         let frame = passes::FramePlan::new(&arena, &[Placed::at_home(scene)], camera, settings, limits);
         let seen_from = &frame.range.begin(camera);
-        let draws = passes::draws(Placed::at_home(scene), (seen_from, frame.range), settings, limits);
+        let draws = passes::draws(&arena, Placed::at_home(scene), (seen_from, frame.range), settings, limits);
         let draws: Vec<_> = draws.collect();
         let chunks = draws.iter().map(|draw| ExplainedChunk {
             splats: draw.chunk.count,
@@ -183,7 +183,7 @@ impl Renderer {
                 .bands()
                 .is_empty(),
         });
-        let meshes = passes::mesh_draws(Placed::at_home(scene), (seen_from, frame.range), settings);
+        let meshes = passes::mesh_draws(Placed::at_home(scene), (&arena, seen_from, frame.range), settings);
         let meshes = meshes.map(|draw| ExplainedMesh {
             triangles: draw.chunk.triangles,
             vertices: draw.chunk.vertices,

@@ -127,7 +127,7 @@ impl Camera {
     /// The motion from world to view space.
     pub fn view_from_world(&self) -> ViewFromWorld {
         let forward = self.forward();
-        let up = self.usable_up();
+        let up = usable_up(self.up, forward);
         let right = forward.cross(up).normalize();
         let down = forward.cross(right);
         ViewFromWorld { rotation: DMat3::from_cols(right, down, forward).transpose(), eye: self.eye }

@@ -119,6 +119,11 @@ impl Placement {
         }
     }
 
+    /// The eye of that camera, by itself.
+    pub(crate) fn eye(&self, camera: &Camera) -> DVec3 {
+        self.rotation.normalize().conjugate() * (camera.eye - self.translation) / self.scale
+    }
+
     /// A plane of the world in the scene's own space: its unit normal, and how far the origin is on the side that the normal points to.
     pub fn plane(&self, plane: DVec4) -> DVec4 {
         if *self == Self::default() {

@@ -112,7 +112,7 @@ pub(crate) fn list_large<'a>(
                 let mut constants = FrameConstants { first_record: 0, chunk_color: 0, ..draw.constants };
                 constants.list_blocks(blocks);
                 let groups = if step == 1 { [1, 1] } else { groups_of(blocks) };
-                dispatch(pass, draw, &constants, pipeline, pass.set(Place::Lists(chunk))?, groups)?;
+                dispatch(pass, draw.chunk, &constants, pipeline, pass.set(Place::Lists(chunk))?, groups)?;
             }
             Ok(())
         });

@@ -8,6 +8,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
+        constants::FrameConstants,
         key::{ComputeKey, Layout},
         variant::Constants,
     },
@@ -16,7 +17,7 @@ use crate::passes::{
         block_list::ListedBlocks,
         draws::{Draw, by_variant},
     },
-    recording::{Pipeline, Recording, rows_of},
+    recording::{Recording, rows_of},
 };
 use crate::{
     error::Result,
@@ -35,8 +36,12 @@ const ARGUMENT_WORDS: u64 = 8;
 const DISPATCH_OFFSET: u64 = 20;
 
 fn words_of(draws: &[Draw<'_>]) -> u64 {
-    let blocks: u64 = draws.iter().map(|draw| u64::from(draw.constants.listed_blocks())).sum();
-    blocks * u64::from(BLOCK_SPLATS / WORD)
+    u64::from(blocks_of(draws)) * u64::from(BLOCK_SPLATS / WORD)
+}
+
+/// Blocks that are looked in, of all chunks: a list of their splats is within what a buffer holds, so that they are fewer than 2³².
+fn blocks_of(draws: &[Draw<'_>]) -> u32 {
+    draws.iter().map(|draw| draw.constants.listed_blocks()).sum()
 }
 
 /// The visible splats of all chunks.
@@ -124,23 +129,16 @@ pub(crate) fn dispatch_words<'a>(
     inputs: Inputs<'a>,
     shader: &'static Shader,
 ) -> Result<()> {
-    let of = |draw: &Draw<'_>| pass.compute(list_key(shader, draw.variant));
+    let of = |draw: &Draw<'_>| pass.compute(list_key(shader, *draw.variant));
     let pipelines = by_variant(pass.arena(), inputs.draws, of)?;
-    pass.finish(move |pass| dispatch_chunks(pass, inputs, |chunk| pipelines[chunk]));
-    Ok(())
-}
-
-/// Records a dispatch a chunk, of one invocation a word of its bits.
-fn dispatch_chunks(
-    pass: &Recording<'_, '_>,
-    inputs: Inputs<'_>,
-    pipeline: impl Fn(usize) -> Pipeline,
-) -> Result<()> {
-    let set = pass.set(Place::Lists(0))?;
-    for (chunk, draw) in inputs.draws.iter().enumerate() {
-        let groups = groups_of(draw.constants.listed_blocks());
-        dispatch(pass, draw, &draw.constants, pipeline(chunk), set, groups)?;
-    }
+    pass.finish(move |pass| {
+        let set = pass.set(Place::Lists(0))?;
+        for (draw, pipeline) in inputs.draws.iter().zip(pipelines) {
+            let groups = groups_of(draw.constants.listed_blocks());
+            dispatch(pass, draw.chunk, &draw.constants, *pipeline, set, groups)?;
+        }
+        Ok(())
+    });
     Ok(())
 }
 
@@ -169,7 +167,7 @@ pub(crate) fn list_marked<'a>(
         let set = pass.set(Place::Lists(0))?;
         // One for all chunks; the set of any will do.
         match inputs.draws.first() {
-            Some(draw) => dispatch(pass, draw, &draw.constants, scan, set, [1, 1]),
+            Some(draw) => dispatch(pass, draw.chunk, &draw.constants, scan, set, [1, 1]),
             None => Ok(()),
         }
     });
@@ -181,7 +179,14 @@ pub(crate) fn list_marked<'a>(
         .write(lists(BIND_LIST_ITEMS), &mut list, write, Start::Discard)
         .write(lists(BIND_LIST_ARGUMENTS), &mut arguments, write, Start::Discard);
     let write = pass.compute(list_key(&shaders::LIST_WRITE_COMP, [].into()))?;
-    pass.finish(move |pass| dispatch_chunks(pass, inputs, |_| write));
+    pass.finish(move |pass| {
+        let Some(draw) = inputs.draws.first() else { return Ok(()) };
+        // One for all chunks; the set of any will do, and their number is in the place of its own.
+        let mut constants = FrameConstants { first_record: 0, ..draw.constants };
+        constants.number_chunk(inputs.draws.len() as u32);
+        let groups = groups_of(blocks_of(inputs.draws));
+        dispatch(pass, draw.chunk, &constants, write, pass.set(Place::Lists(0))?, groups)
+    });
     Ok(VisibleList { bits, blocks, starts, list, arguments })
 }
 

@@ -7,6 +7,7 @@ mod ray;
 
 use bytemuck::{Pod, Zeroable};
 
+use plan::PickedChunk;
 pub use plan::{PickPlan, Picked, PickedPart};
 pub use ray::PickRay;
 
@@ -18,7 +19,7 @@ use crate::passes::{
     pass::{self, Pass, Source},
     pipeline::cache::room_of_lists,
     place::{Place, Planes, lists, transfer},
-    plan::{draws::Draw, mesh_draws::MeshDraw, needs::Needs},
+    plan::{mesh_draws::MeshDraw, needs::Needs},
     recording::rows_of,
     resolve::readback::readback_buffer,
 };
@@ -69,13 +70,13 @@ pub(crate) fn pick<'a>(
         let pass = Pass::new(graph, source, "pick splats", WHY)
             .read(lists(BIND_LIST_BLOCKS), &blocks, Access::StorageReadCompute)
             .write(lists(BIND_LIST_ITEMS), &mut picked, Access::StorageWriteCompute, Start::Discard);
-        let of = |draw: &Draw<'_>| pass.compute(list_key(&shaders::PICK_COMP, draw.variant));
+        let of = |draw: &PickedChunk<'_>| pass.compute(list_key(&shaders::PICK_COMP, draw.variant));
         let pipelines = pass.arena().try_list(plan.draws.iter().map(of))?;
         pass.finish(move |pass| {
             let set = pass.set(Place::Lists(0))?;
             plan.draws.iter().zip(pipelines.iter().copied()).try_for_each(|(draw, pipeline)| {
                 let groups = groups_of(draw.constants.listed_blocks());
-                dispatch(pass, draw, &draw.constants, pipeline, set, groups)
+                dispatch(pass, draw.chunk, &draw.constants, pipeline, set, groups)
             })
         });
     }

@@ -1,8 +1,11 @@
 //! What is looked at for a pick, and what the device's answer means.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 
 use super::{Nearest, PickRay, RUN};
+use crate::passes::pipeline::{constants::FrameConstants, variant::Constants};
 use crate::passes::plan::{
     FramePlan, SurfacePlan,
     block_list::ListedBlocks,
@@ -11,11 +14,12 @@ use crate::passes::plan::{
     mesh_draws::{MeshDraw, mesh_draws},
     planes::{ShaderPlane, if_they_cut, shader_planes},
     range::DepthRange,
+    splat_variants::change_variants,
 };
 use crate::{
     arena::{Arena, ArenaVec},
     inline_vec::InlineVec,
-    prepare::{Placed, PreparedScene},
+    prepare::{Chunk, Placed, PreparedScene},
     scene::{Camera, Edges, Lod, MOST_PLANES, Settings, Window},
     shaders::config::*,
     vk::Limits,
@@ -23,13 +27,21 @@ use crate::{
 
 /// What is looked at for a pick.
 pub struct PickPlan<'a> {
-    pub(super) draws: Vec<Draw<'a>>,
+    pub(super) draws: Vec<PickedChunk<'a>>,
     pub(super) meshes: Vec<MeshDraw<'a>>,
     pub(super) listed: Vec<u32>,
     /// Through the one pixel.
     pub(super) ray: PickRay,
     planes: InlineVec<ShaderPlane, MOST_PLANES>,
     scene: &'a PreparedScene,
+}
+
+/// A chunk of splats that is looked at.
+pub(super) struct PickedChunk<'a> {
+    pub chunk: &'a Chunk,
+    pub constants: FrameConstants,
+    /// The specialization constants of its pipeline.
+    pub variant: Constants,
 }
 
 /// What is seen in a pixel: of splats the one whose depth, moved away from the eye by ε, is nearest, as visibility has it; of polygons the
@@ -87,10 +99,10 @@ impl<'a> PickPlan<'a> {
         let settings = Settings { size_px: [1; 2], lod, ..settings.into_owned() };
         let mut all = arena.growing();
         for (transparent, plan) in [(false, &frame.opaque), (true, &frame.transparent)] {
-            let own = draws(Placed::at_home(scene), (&camera, range), &settings, limits);
+            let own = draws(arena, Placed::at_home(scene), (&camera, range), &settings, limits);
             let mut splats = arena.growing();
             splats.extend(own.filter(|draw| draw.chunk.count > 0 && draw.chunk.transparent == transparent));
-            as_drawn(&mut splats, plan);
+            as_drawn(arena, &mut splats, plan);
             all.extend_from_slice_copy(&splats);
         }
         // Of hybrids what is picked are polygons, whatever is drawn.
@@ -99,8 +111,16 @@ impl<'a> PickPlan<'a> {
         all.retain(|draw| !in_cells(draw.chunk.object));
         let seen = arena.list(all.iter().map(|draw| draw.potentially_visible_runs(arena)));
         let listed = ListedBlocks::of(arena, &mut all, seen, 0..1).words().to_vec();
-        let draws = all.to_vec();
-        let mut meshes: Vec<_> = mesh_draws(Placed::at_home(scene), (&camera, range), &settings).collect();
+        // What is planned goes with its arena; chunks stay.
+        let chunks: HashMap<*const Chunk, &Chunk> =
+            scene.chunks.iter().map(|chunk| (std::ptr::from_ref(chunk), chunk)).collect();
+        let chunk = |draw: &Draw<'_>| {
+            let (constants, variant) = (draw.constants, *draw.variant);
+            chunks.get(&std::ptr::from_ref(draw.chunk)).map(|chunk| PickedChunk { chunk, constants, variant })
+        };
+        let draws: Vec<_> = all.iter().filter_map(chunk).collect();
+        let mut meshes: Vec<_> =
+            mesh_draws(Placed::at_home(scene), (arena, &camera, range), &settings).collect();
         let mut first = words_of(&draws);
         for draw in &mut meshes {
             draw.constants.splat_count = draw.chunk.triangles;
@@ -169,15 +189,15 @@ impl<'a> PickPlan<'a> {
 }
 
 /// Splats with the levels of detail and the ε that a frame draws them with.
-fn as_drawn(splats: &mut ArenaVec<'_, Draw<'_>>, plan: &SurfacePlan<'_>) {
+fn as_drawn<'a>(arena: &'a Arena, splats: &mut ArenaVec<'_, Draw<'a>>, plan: &SurfacePlan<'_>) {
     let mut levels = plan.drawn().iter().filter_map(|draw| draw.levels).peekable();
     if levels.peek().is_none() {
-        without_levels(splats);
+        without_levels(arena, splats);
     } else if !levels.any(|levels| levels.blends()) {
-        with_hard_steps(splats);
+        with_hard_steps(arena, splats);
     }
     if plan.settings.edges == Edges::Coverage {
-        splats.iter_mut().for_each(|draw| draw.variant.push((SPEC_COVERAGE_EDGES, 1)));
+        change_variants(arena, splats, |_| (), |variant, ()| variant.push((SPEC_COVERAGE_EDGES, 1)));
     }
 }
 
@@ -185,7 +205,7 @@ fn as_drawn(splats: &mut ArenaVec<'_, Draw<'_>>, plan: &SurfacePlan<'_>) {
 const WORD: u32 = u32::BITS;
 
 /// Records of splats.
-fn words_of(draws: &[Draw<'_>]) -> u32 {
+fn words_of(draws: &[PickedChunk<'_>]) -> u32 {
     draws.iter().map(|draw| draw.constants.listed_blocks()).sum::<u32>() * (BLOCK_SPLATS / WORD)
 }
 

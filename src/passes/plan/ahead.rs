@@ -130,8 +130,7 @@ impl Ahead {
         let plan = plan.and_then(|plan| plan.when_drawn(splats, culls_hidden, limits));
         let plan = plan.ok_or("ahead: too many for tiles")?;
         let plan = TilePlan { may_be_large: self.large, overflows_somewhere: self.overflows, ..plan };
-        let mut own = arena.growing();
-        own.extend_from_slice_copy(splats);
+        let mut own = arena.copied(splats);
         let visible = match self.lists_tiles(splats, settings, limits) {
             true => {
                 let nothing = arena.list(splats.iter().map(|_| &[][..]));

@@ -50,8 +50,7 @@ impl<'a> Band<'a> {
         seen: &PotentiallyVisibleBlocks<'_>,
         plan: TilePlan,
     ) -> Self {
-        let mut own = arena.growing();
-        own.extend_from_slice_copy(splats);
+        let mut own = arena.copied(splats);
         let visible = Some(ListedBlocks::of(arena, &mut own, seen.chunks, plan.rows.clone()));
         Self { splats: own.into_bump_slice(), visible, plan }
     }
@@ -222,7 +221,12 @@ mod tests {
     use super::*;
     use crate::{
         math::random::SplitMix,
-        passes::plan::{FramePlan, draws::draws, range::DepthRange, tiles::rows::rows_of_image},
+        passes::plan::{
+            FramePlan,
+            draws::draws,
+            range::DepthRange,
+            tiles::rows::{Drawn, rows_of_image},
+        },
         prepare::{Placed, PreparedScene, prepare_without_device},
         scene::{Camera, Colors, Edges, Object, Rasterizer, Scene, Shapes, Splats},
     };
@@ -284,11 +288,12 @@ mod tests {
             let range = DepthRange::of(&[Placed::at_home(&prepared)], &camera());
             let camera = range.begin(&camera());
             let arena = Arena::new();
-            let draws = arena.list(draws(Placed::at_home(&prepared), (&camera, range), &settings, &limits));
+            let draws =
+                arena.list(draws(&arena, Placed::at_home(&prepared), (&camera, range), &settings, &limits));
             let rows = rows_of_image(&settings);
             let runs = arena.list(draws.iter().map(|draw| draw.potentially_visible_runs(&arena)));
             let seen = PotentiallyVisibleBlocks::new(&arena, runs, rows.end);
-            let whole = TilePlan::of(draws, false, &settings, &limits).expect("room");
+            let whole = TilePlan::of(Drawn::new(&arena, draws), false, &settings, &limits).expect("room");
             let whole = whole.tightened_to_blocks(draws, &seen, &settings, &limits);
             let cut = cut_into_bands(&arena, draws, (&seen, &[]), &whole, &settings, &limits);
             let of_bands: Vec<u64> = cut.iter().map(TilePlan::bytes).collect();

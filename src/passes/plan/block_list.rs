@@ -13,7 +13,7 @@ const HEAD_WORDS: usize = 3;
 const LEAST_WORDS: usize = 256;
 
 /// The blocks of all chunks in which splats are looked for, as `glsl/inc/list.glsl` has them: the rows of tiles, and how many runs of blocks there are; the runs of all
-/// chunks one behind the other; then, where some have levels of detail, how the camera sees them, the last chunk's first.
+/// chunks one behind the other; where each chunk begins among all blocks that are looked in, and where the last ends; then, where some have levels of detail, how the camera sees them, the last chunk's first.
 #[derive(Clone, Copy)]
 pub struct ListedBlocks<'a>(&'a [u32]);
 
@@ -27,12 +27,14 @@ impl<'a> ListedBlocks<'a> {
         rows: Range<u32>,
     ) -> Self {
         let mut words = arena.growing();
-        let most = HEAD_WORDS + 2 * seen.iter().map(|runs| runs.len().max(1)).sum::<usize>();
+        let most = HEAD_WORDS + 2 * seen.iter().map(|runs| runs.len().max(1)).sum::<usize>() + seen.len() + 1;
         words.reserve(most.next_power_of_two().max(LEAST_WORDS));
         words.extend([rows.start, rows.end, 0]);
-        let mut place = 0;
+        let (mut place, mut begins) = (0, arena.growing());
+        begins.reserve(seen.len() + 1);
         for (number, (draw, runs)) in (0..).zip(draws.iter_mut().zip(seen)) {
             let (before, mut last) = (place, None);
+            begins.push(place);
             draw.constants.number_chunk(number);
             draw.constants.first_record = place * BLOCK_SPLATS;
             for run in runs.iter().filter(|run| run.touches(&rows)) {
@@ -53,7 +55,9 @@ impl<'a> ListedBlocks<'a> {
             }
             draw.constants.list_blocks(place - before);
         }
+        begins.push(place);
         words[HEAD_WORDS - 1] = ((words.len() - HEAD_WORDS) / 2) as u32;
+        words.extend_from_slice_copy(&begins);
         // With every move of a camera there are others, of which buffers shall not be too small.
         words.resize(words.len().next_power_of_two().max(LEAST_WORDS), 0);
         if draws.iter().any(|draw| draw.levels.is_some()) {

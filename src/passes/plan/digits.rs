@@ -25,22 +25,24 @@ pub fn check(scenes: &[Placed<'_>], camera: &Camera) -> Result<()> {
     if camera.is_orthographic() {
         return check_range(scenes, camera);
     }
-    scenes.iter().try_for_each(|Placed { scene, at, .. }| check_near(scene, &at.camera(camera)))
+    scenes.iter().try_for_each(|placed| check_near(placed, camera))
 }
 
-/// The same of one scene, from a camera in its own space.
-fn check_near(scene: &PreparedScene, camera: &Camera) -> Result<()> {
+/// The same of one scene, in its own space.
+fn check_near(Placed { scene, at, .. }: &Placed<'_>, camera: &Camera) -> Result<()> {
+    let (eye, near) = (at.eye(camera), camera.near() / at.scale);
     // Depths that are handed out have the world's unit, and 32 bits.
-    let near = camera.near() as f32;
-    if near == 0.0 || near.is_infinite() {
-        let problem = format!("near {:e}: expected {:e} to {:e}", camera.near(), f32::from_bits(1), f32::MAX);
+    let told = near as f32;
+    if told == 0.0 || told.is_infinite() {
+        let problem = format!("near {near:e}: expected {:e} to {:e}", f32::from_bits(1), f32::MAX);
         return Err(Error::option("camera", problem));
     }
     // Over the distance of what is farthest, or the radius of what is larger than far and has a unit of its own.
     let near_in_units = |rebase: &Rebase, reach: f64| {
-        let view = rebase.view_from_local(camera);
-        let farthest = view.translation.length() + reach * view.view_from_local_scale;
-        camera.near() * view.view_from_world_scale / farthest.max(1.0)
+        let distance = rebase.origin.distance(eye);
+        let unit = rebase.unit_of_view(distance);
+        let farthest = (distance + reach / rebase.scale) / unit;
+        near / unit / farthest.max(1.0)
     };
     let reach_of = |chunk: &Chunk| {
         let [lo, hi] = chunk.bounds;
@@ -57,7 +59,7 @@ fn check_near(scene: &PreparedScene, camera: &Camera) -> Result<()> {
     let meshes = scene.meshes.iter().map(|mesh| near_in_units(&mesh.rebase, 3_f64.sqrt() * mesh.farthest));
     let least = splats.chain(meshes).fold(1.0, f64::min);
     if least < LEAST_NEAR {
-        let (near, needed) = (camera.near(), camera.near() / least * LEAST_NEAR);
+        let needed = near / least * LEAST_NEAR;
         let problem = format!(
             "near {near:e}: something in the scene is {:.1e} times as far or as large; expected {needed:.1e} or more",
             least.recip()

@@ -2,7 +2,7 @@
 
 use crate::passes::{
     pipeline::variant::culls,
-    plan::{SplatMethod, SurfacePlan, bands::Band, draws::Draw},
+    plan::{SplatMethod, SurfacePlan, bands::Band, draws::Draw, splat_variants::change_variants},
 };
 use crate::{
     arena::Arena,
@@ -27,7 +27,7 @@ impl<'a> SurfacePlan<'a> {
         if !coverage && !transparent {
             return;
         }
-        let two_sided = coverage && self.splats.iter().any(|draw| !culls(&draw.variant));
+        let two_sided = coverage && self.splats.iter().any(|draw| !culls(draw.variant));
         let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());
         let samples_polygons = !self.meshes.is_empty()
             && self.settings.samples.0 == 1
@@ -36,7 +36,7 @@ impl<'a> SurfacePlan<'a> {
         let SplatMethod::Tiles(bands) = &mut self.method else { return };
         let of_band = |band: &Band<'a>| {
             let splats = match coverage {
-                true => arena.list(band.splats.iter().map(|draw| with_edges(*draw, two_sided, transparent))),
+                true => with_edges(arena, band.splats, two_sided, transparent),
                 false => band.splats,
             };
             let plan = match lights {
@@ -52,18 +52,27 @@ impl<'a> SurfacePlan<'a> {
 /// Why surfaces do not cover pixels in part that tiles draw.
 const NOT_IN_PART: &str = "edges are hard, since some splats are too large, or too many, to cover pixels in part: --samples 8 smooths them";
 
-/// A chunk of splats whose surface covers pixels in part where it ends.
-fn with_edges(mut draw: Draw<'_>, two_sided: bool, transparent: bool) -> Draw<'_> {
-    draw.variant.push((SPEC_COVERAGE_EDGES, 1));
-    if draw.chunk.is_sharp {
-        draw.variant.push((SPEC_SHARP, 1));
-    }
-    if two_sided {
-        draw.variant.push((SPEC_TWO_SIDED, 1));
-        // Surfaces are of one side: how near the other one is does not matter. Of sharp ones it is not that alone.
-        if !draw.chunk.is_sharp && !transparent {
-            draw.variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
+/// Splats whose surfaces cover pixels in part where they end.
+fn with_edges<'a>(
+    arena: &'a Arena,
+    splats: &[Draw<'a>],
+    two_sided: bool,
+    transparent: bool,
+) -> &'a [Draw<'a>] {
+    let mut splats = arena.copied(splats);
+    let is_sharp = |draw: &Draw<'_>| draw.chunk.is_sharp;
+    change_variants(arena, &mut splats, is_sharp, |variant, is_sharp| {
+        variant.push((SPEC_COVERAGE_EDGES, 1));
+        if *is_sharp {
+            variant.push((SPEC_SHARP, 1));
         }
-    }
-    draw
+        if two_sided {
+            variant.push((SPEC_TWO_SIDED, 1));
+            // Surfaces are of one side: how near the other one is does not matter. Of sharp ones it is not that alone.
+            if !is_sharp && !transparent {
+                variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
+            }
+        }
+    });
+    splats.into_bump_slice()
 }

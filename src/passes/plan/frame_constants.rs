@@ -5,39 +5,28 @@ use glam::DVec3;
 use crate::{
     passes::{
         pipeline::constants::{FrameConstants, in_one_word},
-        plan::range::DepthRange,
+        plan::scene_view::SceneView,
     },
     prepare::ViewFromLocal,
-    scene::{Camera, Settings},
+    scene::Settings,
 };
 
 /// Where ε stops to grow, in radii and in view units, of which the eye is about 1 away: everything belongs to the nearest
 /// surface long before, and f32 ends at 3e38.
 const LARGEST_EPSILON: f64 = 1e30;
 
-/// The depth of the near plane in view space. `digits.rs` refuses one that f32 does not have, but for stray splats.
-pub(super) fn near_in_view(camera: &Camera, view: &ViewFromLocal) -> f64 {
-    (camera.near() * view.view_from_world_scale).max(1e-37)
-}
-
-/// Pixels of a unit of the image plane, which of an orthographic camera is the view's.
-pub(super) fn focal_in_view_px(camera: &Camera, view: &ViewFromLocal, height_px: u32) -> f64 {
-    let unit = if camera.is_orthographic() { view.view_from_world_scale } else { 1.0 };
-    camera.focal_px(height_px) / unit
-}
-
 /// What is the same for all that is drawn in one local space; ε in radii and as a world length.
 pub(crate) fn frame_constants(
     view: &ViewFromLocal,
-    (camera, range): (&Camera, DepthRange),
+    of_scene: &SceneView<'_>,
     settings: &Settings,
     (epsilon_radii, epsilon_length): (f64, f64),
 ) -> FrameConstants {
-    let focal_px = focal_in_view_px(camera, view, settings.size_px[1]);
+    let (camera, focal_px) = (&of_scene.camera, of_scene.focal_px(view));
     let near = if camera.is_orthographic() {
-        range.end * view.view_from_world_scale
+        of_scene.range.end * view.view_from_world_scale
     } else {
-        near_in_view(camera, view)
+        of_scene.near(view)
     };
     let epsilon_length = epsilon_length * view.view_from_world_scale;
     let [view_from_local_x, view_from_local_y, view_from_local_z] = view.rows();

@@ -5,7 +5,7 @@ use glam::{DVec3, DVec4};
 use crate::{
     math::size::SizeBound,
     prepare::{Chunk, ViewFromLocal},
-    scene::Camera,
+    scene::ViewFromWorld,
 };
 
 /// Of the box of a chunk's centers, local space.
@@ -19,10 +19,10 @@ pub(super) fn center_and_half(chunk: &Chunk) -> [DVec3; 2] {
 const DEPTH_RESERVE: f64 = 1e-6;
 
 /// A plane in view space.
-pub(super) fn in_view(plane: DVec4, camera: &Camera, view: &ViewFromLocal) -> DVec4 {
+pub(super) fn in_view(plane: DVec4, of_scene: &ViewFromWorld, view: &ViewFromLocal) -> DVec4 {
     let normal = plane.truncate();
-    let eye = normal.dot(camera.eye) + plane.w;
-    (camera.view_from_world().rotation * normal).extend(eye * view.view_from_world_scale)
+    let eye = normal.dot(of_scene.eye) + plane.w;
+    (of_scene.rotation * normal).extend(eye * view.view_from_world_scale)
 }
 
 /// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius, as a device may

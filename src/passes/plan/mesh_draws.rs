@@ -2,9 +2,10 @@
 
 use crate::passes::{
     pipeline::constants::FrameConstants,
-    plan::{frame_constants::frame_constants, levels::LevelView, range::DepthRange},
+    plan::{frame_constants::frame_constants, levels::LevelView, range::DepthRange, scene_view::SceneView},
 };
 use crate::{
+    arena::Arena,
     prepare::{ChunkLevels, LevelPart, MeshChunk, MeshLevels, Placed},
     scene::{Camera, Epsilon, Settings},
 };
@@ -36,32 +37,38 @@ impl MeshDraw<'_> {
 
 /// All pieces of meshes of a scene as seen from a camera; those in cells as a whole where no levels of detail are drawn.
 pub fn mesh_draws<'a, 's>(
-    Placed { scene, at, .. }: Placed<'a>,
-    (camera, range): (&Camera, DepthRange),
+    placed: Placed<'a>,
+    (arena, camera, range): (&'s Arena, &Camera, DepthRange),
     settings: &'s Settings,
 ) -> impl Iterator<Item = MeshDraw<'a>> + use<'a, 's> {
-    let (camera, range) = (at.camera(camera), range.within(&at));
+    let view = arena.keep(SceneView::new(arena, &placed.at, (camera, range), settings));
+    placed.scene.meshes.iter().map(move |chunk| mesh_draw(placed, chunk, view, settings))
+}
+
+/// A piece of a mesh of a scene that is seen so.
+pub(super) fn mesh_draw<'a>(
+    Placed { scene, at, .. }: Placed<'a>,
+    chunk: &'a MeshChunk,
+    of_scene: &SceneView<'_>,
+    settings: &Settings,
+) -> MeshDraw<'a> {
     let epsilon = match settings.epsilon {
         Epsilon::Auto => Epsilon::auto_radii(true) * scene.mean_transparent_radius,
         Epsilon::Radii(radii) => radii * scene.mean_transparent_radius,
         Epsilon::Length(length) => length / at.scale,
     };
-    let draw = move |chunk: &'a MeshChunk| {
-        let camera = &camera;
-        let view = chunk.rebase.view_from_local(camera);
-        MeshDraw {
-            chunk,
-            placed: 0,
-            constants: FrameConstants {
-                chunk_color: u32::from(chunk.uniform_color),
-                ..frame_constants(&view, (camera, range), settings, (0.0, epsilon))
-            },
-            cull: settings.culls(chunk.closed && !chunk.transparent),
-            levels: chunk.levels.and_then(|MeshLevels { space, .. }| {
-                let levels = ChunkLevels { space, part: LevelPart::OfCells };
-                LevelView::new(levels, false, camera, settings)
-            }),
-        }
-    };
-    scene.meshes.iter().map(draw)
+    let view = chunk.rebase.view_from(&of_scene.view);
+    MeshDraw {
+        chunk,
+        placed: 0,
+        constants: FrameConstants {
+            chunk_color: u32::from(chunk.uniform_color),
+            ..frame_constants(&view, of_scene, settings, (0.0, epsilon))
+        },
+        cull: settings.culls(chunk.closed && !chunk.transparent),
+        levels: chunk.levels.and_then(|MeshLevels { space, .. }| {
+            let levels = ChunkLevels { space, part: LevelPart::OfCells };
+            LevelView::new(levels, false, &of_scene.camera, settings)
+        }),
+    }
 }

@@ -7,7 +7,7 @@ use crate::passes::plan::{
         ends::{largest_of, likely_bands, likely_ends},
         most_bytes,
     },
-    tiles::rows::rows_of_image,
+    tiles::rows::{Drawn, rows_of_image},
 };
 use crate::passes::{
     pipeline::tile_layouts::STORAGE_BUFFERS,
@@ -73,13 +73,13 @@ pub(crate) fn primitives<'a>(
 ) -> SplatMethod<'a> {
     let half_sums = settings.accumulate == Accumulate::F16 && settings.weighs_splats();
     splats.iter_mut().for_each(|draw| draw.half_sums = half_sums);
-    with_hard_steps(splats);
+    with_hard_steps(arena, splats);
     if let Some(ahead) = ahead {
         splats.iter_mut().for_each(|draw| draw.may_be_large = ahead.may_be_large(settings));
     }
     let leaves_out = ahead.map_or_else(|| culling::may_leave_out(splats), |ahead| ahead.listed);
     if !culling::lists_primitives(splats, leaves_out, settings, limits) {
-        without_levels(splats);
+        without_levels(arena, splats);
         culling::number_splats(splats);
         return SplatMethod::default();
     }
@@ -112,6 +112,7 @@ fn bands<'a>(
         let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_runs(arena)));
         PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
+    let drawn = || Drawn::new(arena, splats);
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
     // Bands may have room for what is too large for lists of all of the image; but polygons may be drawn between two passes over all of it, and levels of detail
     // are counted in one list.
@@ -128,11 +129,11 @@ fn bands<'a>(
         if !culling::list_has_room(seen.block_count(), limits) {
             return None;
         }
-        let of_blocks = TilePlan::of_blocks(splats, &seen, rows.clone(), culls_hidden, settings, limits);
-        let whole = of_blocks.or_else(|| TilePlan::of(splats, culls_hidden, settings, limits))?;
+        let of_blocks = TilePlan::of_blocks(drawn(), &seen, rows.clone(), culls_hidden, settings, limits);
+        let whole = of_blocks.or_else(|| TilePlan::of(drawn(), culls_hidden, settings, limits))?;
         (seen, whole, &[][..])
     } else {
-        let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
+        let whole = TilePlan::of(drawn(), culls_hidden, settings, limits)?;
         // Bands are made of listed splats, too.
         let gains =
             culling::may_leave_out(splats) || whole.bytes() > most_bytes(splats, settings.tile_memory);
@@ -143,8 +144,7 @@ fn bands<'a>(
                     return Some(of_plans(&seen, cut));
                 }
             }
-            let mut own = arena.growing();
-            own.extend_from_slice_copy(splats);
+            let mut own = arena.copied(splats);
             culling::number_splats(&mut own);
             let band = Band { splats: own.into_bump_slice(), visible: None, plan: whole };
             return (!left_to_others(&band.plan)).then(|| std::slice::from_ref(arena.keep(band)));

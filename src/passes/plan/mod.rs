@@ -23,7 +23,9 @@ pub(crate) mod objects;
 pub(crate) mod outputs;
 pub(crate) mod planes;
 pub(crate) mod range;
+pub(crate) mod scene_view;
 pub(crate) mod seen;
+pub(crate) mod splat_variants;
 pub(crate) mod sums;
 pub(crate) mod tiles;
 pub(crate) mod words;
@@ -34,15 +36,17 @@ use crate::passes::plan::{
     ahead::Ahead,
     bands::Band,
     block_list::ListedBlocks,
-    draws::{Draw, draws},
-    mesh_draws::{MeshDraw, mesh_draws},
+    draws::{Draw, draw},
+    mesh_draws::{MeshDraw, mesh_draw},
     range::DepthRange,
+    scene_view::SceneView,
+    splat_variants::SplatVariants,
     tiles::TilePlan,
 };
 use crate::{
     arena::{Arena, ArenaVec},
     inline_vec::InlineVec,
-    prepare::Placed,
+    prepare::{Chunk, Placed},
     scene::{Accumulate, Camera, MOST_PLANES, Rasterizer, Settings, Transition},
     vk::Limits,
 };
@@ -132,17 +136,24 @@ impl<'a> FramePlan<'a> {
         let range = DepthRange::of(scenes, camera);
         let camera = &range.begin(camera);
         let lights = lights::shader_lights(arena, scenes, camera);
+        let views = scenes.iter().map(|placed| SceneView::new(arena, &placed.at, (camera, range), settings));
+        let (views, variants) = (arena.list(views), SplatVariants::new(arena, settings, limits));
         let surface = |transparent: bool| {
+            // What is to come has pipelines ahead.
+            let is_drawn =
+                |chunk: &Chunk| chunk.transparent == transparent && (chunk.count > 0 || ahead.is_some());
             let (mut splats, mut meshes) = (arena.growing(), arena.growing());
-            for (placed, number) in scenes.iter().zip(0..) {
-                let own = draws(*placed, (camera, range), settings, limits);
-                // What is to come has pipelines ahead.
-                let own = own.filter(|draw| draw.chunk.count > 0 || ahead.is_some());
-                let own = own.filter(|draw| draw.chunk.transparent == transparent);
-                splats.extend(own.map(|draw| draw.of_scene(number)));
-                let own = mesh_draws(*placed, (camera, range), settings);
-                let own = own.filter(|draw| draw.chunk.transparent == transparent);
-                meshes.extend(own.map(|draw| MeshDraw { placed: number, ..draw }));
+            let drawn = scenes.iter().flat_map(|placed| &placed.scene.chunks).filter(|chunk| is_drawn(chunk));
+            splats.reserve(drawn.count());
+            for ((placed, number), view) in scenes.iter().zip(0..).zip(views) {
+                for chunk in placed.scene.chunks.iter().filter(|chunk| is_drawn(chunk)) {
+                    let own = draw(arena, (*placed, chunk), view, settings, &variants);
+                    splats.extend(own.map(|draw| Draw { placed: number, ..draw }));
+                }
+                let own = placed.scene.meshes.iter().filter(|chunk| chunk.transparent == transparent);
+                meshes.extend(
+                    own.map(|chunk| MeshDraw { placed: number, ..mesh_draw(*placed, chunk, view, settings) }),
+                );
             }
             let lights = transparent.then_some(lights.len() as u32);
             SurfacePlan::new(arena, (splats, meshes), lights, (settings, limits), ahead)

@@ -63,7 +63,7 @@ pub(crate) fn project<'a>(
         // What is not written has to be what may be: a stand-in is only read.
         None => pass.also(at(BIND_CLIPS)),
     };
-    let of = |draw: &Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));
+    let of = |draw: &Draw<'_>| pass.compute(key(draw.variant, tiles.plan, visible.is_some()));
     let pipelines = by_variant(pass.arena(), inputs.draws, of)?;
     let most_tiles = tiles.plan.most_tiles;
     pass.finish(move |pass| {

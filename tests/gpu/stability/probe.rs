@@ -7,6 +7,7 @@ use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 use surfel::{
+    arena::Arena,
     passes::{DepthRange, FrameConstants, draws},
     prepare::PreparedScene,
     renderer::Headless,
@@ -115,7 +116,9 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<&str>) -> Vec
         .run_once("probe", |commands| {
             let raw = device.raw();
             for (number, asked) in asked.iter().enumerate() {
+                let arena = Arena::new();
                 let draw = draws(
+                    &arena,
                     surfel::prepare::Placed::at_home(asked.scene),
                     (asked.camera, DepthRange::default()),
                     asked.settings,

@@ -77,7 +77,7 @@ mod tests {
     use super::*;
     use crate::{
         math::random::SplitMix,
-        passes::plan::{FramePlan, bands::most_bytes},
+        passes::plan::{FramePlan, bands::most_bytes, tiles::rows::Drawn},
         prepare::{Placed, prepare_without_device},
         scene::{Camera, Colors, Object, Rasterizer, Scene, Settings, Shapes, Splats, TileMemory},
         vk::Limits,
@@ -113,7 +113,9 @@ mod tests {
             let arena = Arena::new();
             let plan = FramePlan::new(&arena, &[Placed::at_home(&ball)], &camera, &settings, &limits);
             let bands = plan.opaque.bands();
-            let all = TilePlan::of(plan.opaque.splats, false, &settings, &limits).expect("room").bytes();
+            let all = TilePlan::of(Drawn::new(&arena, plan.opaque.splats), false, &settings, &limits)
+                .expect("room")
+                .bytes();
             let most = most_bytes(plan.opaque.splats, settings.tile_memory);
             let of_bands: Vec<u64> = bands.iter().map(|band| band.plan.bytes()).collect();
             let records: Vec<u32> = bands.iter().map(|band| band.plan.record_count).collect();

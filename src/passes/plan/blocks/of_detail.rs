@@ -42,8 +42,8 @@ fn levels_of_detail_are_those_of_the_blocks() {
             let settings = settings(Lod::Px(lod), steps);
             let camera = Camera { eye, target: DVec3::new(0.0, 0.1, 0.0), ..Camera::default() };
             let range = DepthRange::of(&[Placed::at_home(&prepared)], &camera);
-            let (camera, limits) = (range.begin(&camera), Limits::plain());
-            for draw in draws(Placed::at_home(&prepared), (&camera, range), &settings, &limits) {
+            let (camera, limits, planned) = (range.begin(&camera), Limits::plain(), Arena::new());
+            for draw in draws(&planned, Placed::at_home(&prepared), (&camera, range), &settings, &limits) {
                 let (arena, chunk, look) = (Arena::new(), draw.chunk, draw.look());
                 let view = draw.levels.as_ref().expect("levels");
                 let blocks =

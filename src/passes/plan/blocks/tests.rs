@@ -207,8 +207,8 @@ fn runs_leave_out_no_more_than_their_blocks() {
                 let camera = Camera { eye, target, orthographic_height, ..Camera::default() };
                 let range = DepthRange::of(&[Placed::at_home(&prepared)], &camera);
                 let camera = range.begin(&camera);
-                let limits = Limits::plain();
-                for draw in draws(Placed::at_home(&prepared), (&camera, range), &settings, &limits) {
+                let (limits, arena) = (Limits::plain(), Arena::new());
+                for draw in draws(&arena, Placed::at_home(&prepared), (&camera, range), &settings, &limits) {
                     let arena = Arena::new();
                     let (chunk, look) = (draw.chunk, draw.look());
                     for closely in [false, true] {
@@ -274,7 +274,7 @@ fn blocks_of_nothing_are_not_looked_at() {
         let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
         let limits = Limits::plain();
         let how = (&camera, DepthRange::default());
-        let all = draws(Placed::at_home(seen), how, &settings, &limits);
+        let all = draws(&arena, Placed::at_home(seen), how, &settings, &limits);
         let of = |draw: crate::passes::plan::draws::Draw<'_>| {
             let every: Vec<u32> = (0..1000).collect();
             let runs = draw.closer_runs(&arena, draw.potentially_visible_runs(&arena), Closer::Cut(&every));

@@ -77,9 +77,10 @@ pub(in super::super) fn potentially_visible_runs<'m>(
     }
     let Some(level) = chunk.tree.levels.len().checked_sub(1) else { return &[] };
     top.reserve(chunk.tree.levels[level].len() * CHILDREN);
-    look_at_quads(&mut top, chunk, (level, 0..usize::MAX), (look, &look.eye()));
+    let eye = look.eye();
+    look_at_quads(&mut top, chunk, (level, 0..usize::MAX), (look, &eye));
     let most = if look.levels.is_some() { MOST_LOOKS_AT_LEVELS } else { MOST_LOOKS };
-    looked_into(arena, chunk, look, top, most, |run| !run.all_seen || !run.all_of_level)
+    looked_into(arena, chunk, (look, &eye), top, most, |run| !run.all_seen || !run.all_of_level)
 }
 
 /// These runs, and in place of some of them their parts.
@@ -97,7 +98,7 @@ pub(in super::super) fn closer_runs<'m>(
         return front.into_bump_slice();
     }
     let rows = (look.bound.size_px[1] as u32).div_ceil(BAND_ROW);
-    looked_into(arena, chunk, look, front, closer.most_looks(), |run| closer.wants(run, rows))
+    looked_into(arena, chunk, (look, &look.eye()), front, closer.most_looks(), |run| closer.wants(run, rows))
 }
 
 /// Looks at some quads of a level of a chunk's tree.
@@ -124,12 +125,11 @@ fn look_at_quads(
 fn looked_into<'m>(
     arena: &'m Arena,
     chunk: &Chunk,
-    look: &BlockCullView<'_>,
+    (look, eye): (&BlockCullView<'_>, &Eye),
     mut front: ArenaVec<'m, PotentiallyVisibleRun>,
     mut looks: usize,
     wants: impl Fn(&PotentiallyVisibleRun) -> bool,
 ) -> &'m [PotentiallyVisibleRun] {
-    let eye = &look.eye();
     for level in (1..chunk.tree.levels.len()).rev() {
         let each = CHILDREN.pow(level as u32);
         // The last run of a level may be short, and is then that of a lower one, too.

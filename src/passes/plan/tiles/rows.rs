@@ -6,6 +6,7 @@ use ash::vk;
 
 use crate::passes::plan::tiles::{TilePlan, image_tiles::ImageTiles, walks::round_length};
 use crate::{
+    arena::Arena,
     passes::plan::{
         draws::Draw,
         invocations::{Invocations, are_small},
@@ -31,11 +32,29 @@ pub(crate) fn tile_rows(rows: u32, invocations: Invocations) -> u32 {
     rows * (BAND_ROW / invocations.tile_height())
 }
 
+/// All that is drawn.
+#[derive(Clone, Copy)]
+pub struct Drawn<'a> {
+    pub draws: &'a [Draw<'a>],
+    /// How many splats have boxes up to how many pixels ([`Draw::boxes`]): found once, for they are asked for again and again.
+    pub boxes: &'a [(u32, f64)],
+}
+
+impl<'a> Drawn<'a> {
+    /// These chunks.
+    pub fn new(arena: &'a Arena, draws: &'a [Draw<'a>]) -> Self {
+        let mut boxes = arena.growing();
+        boxes.reserve(draws.iter().map(|draw| draw.chunk.radii.len()).sum());
+        boxes.extend(draws.iter().flat_map(Draw::boxes));
+        Self { draws, boxes: boxes.into_bump_slice() }
+    }
+}
+
 impl TilePlan {
     /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
-    pub fn of(draws: &[Draw<'_>], culls_hidden: bool, settings: &Settings, limits: &Limits) -> Option<Self> {
-        let boxes = draws.iter().flat_map(Draw::boxes);
-        Self::of_rows(draws, boxes, rows_of_image(settings), culls_hidden, settings, limits)
+    pub fn of(drawn: Drawn<'_>, culls_hidden: bool, settings: &Settings, limits: &Limits) -> Option<Self> {
+        let boxes = drawn.boxes.iter().copied();
+        Self::of_rows(drawn, boxes, rows_of_image(settings), culls_hidden, settings, limits)
     }
 
     /// This one, of all rows, or what the blocks that may be seen need, if that is less and draws as much.
@@ -54,14 +73,14 @@ impl TilePlan {
 
     /// The plan for the blocks that may touch some rows of tiles; none where there is none, or more than the device has room for.
     pub(crate) fn of_blocks(
-        draws: &[Draw<'_>],
+        drawn: Drawn<'_>,
         seen: &PotentiallyVisibleBlocks<'_>,
         rows: Range<u32>,
         culls_hidden: bool,
         settings: &Settings,
         limits: &Limits,
     ) -> Option<Self> {
-        Self::of_rows(draws, seen.boxes(&rows), rows, culls_hidden, settings, limits)
+        Self::of_rows(drawn, seen.boxes(&rows), rows, culls_hidden, settings, limits)
     }
 
     /// The same for some rows of what this one draws. With the same splats left to the graphics pipeline; or, if the rows have `own_room`, with those that have none in these rows'
@@ -83,7 +102,7 @@ impl TilePlan {
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
     fn of_rows(
-        draws: &[Draw<'_>],
+        Drawn { draws, boxes: all }: Drawn<'_>,
         boxes: impl Iterator<Item = (u32, f64)> + Clone,
         rows: Range<u32>,
         culls_hidden: bool,
@@ -91,8 +110,8 @@ impl TilePlan {
         limits: &Limits,
     ) -> Option<Self> {
         // By all that is drawn, so that all bands have the same.
-        let all = || draws.iter().flat_map(Draw::boxes);
-        let invocations = Invocations::of(settings.tile_invocations, limits, are_small(all()));
+        let small = are_small(all.iter().copied());
+        let invocations = Invocations::of(settings.tile_invocations, limits, small);
         let area = (settings.size_px, rows);
         let of = |invocations| Self::of_boxes(draws.len(), boxes.clone(), area.clone(), limits, invocations);
         // Twice as many tiles of a huge image may have no room; in no band then.

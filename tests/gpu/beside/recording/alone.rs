@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::DVec3;
 use surfel::{
     Settings,
-    embed::{Device, Import, Placed, Renderer, Rendering, View, ViewFrame},
+    embed::{Device, Import, Placed, Placement, Renderer, Rendering, View, ViewFrame},
     scene::{Object, Rasterizer, Scene},
 };
 
@@ -31,12 +31,46 @@ fn sorted(times: impl Iterator<Item = f64>) -> Vec<f64> {
     times
 }
 
-/// Without a layer: `cargo test --release --test gpu recording_alone -- --ignored --nocapture`.
+/// What is recorded.
+struct Row {
+    kind: &'static str,
+    objects: u32,
+    splats: usize,
+    size_px: [u32; 2],
+    rasterizer: Rasterizer,
+}
+
+/// Of one object the larger the more, without a layer: `cargo test --release --test gpu recording_alone -- --ignored --nocapture`.
 #[test]
 #[ignore = "a measurement"]
 fn recording_alone_costs_so_much() {
+    let (mut rows, rasterizer) = (Vec::new(), Rasterizer::Compute);
+    for size_px in [[160, 120], [1024, 768]] {
+        for kind in ["closed", "open", "in levels of detail"] {
+            let counts = [1000, 30_000, 100_000, 400_000, 1_000_000];
+            rows.extend(counts.map(|splats| Row { kind, objects: 1, splats, size_px, rasterizer }));
+        }
+    }
+    record(rows);
+}
+
+/// Of small objects, as many: `cargo test --release --test gpu objects_alone -- --ignored --nocapture`.
+#[test]
+#[ignore = "a measurement"]
+fn objects_alone_cost_so_much() {
+    let mut rows = Vec::new();
+    for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
+        let row = |objects| Row { kind: "closed", objects, splats: 1000, size_px: [160, 120], rasterizer };
+        rows.extend([1, 8, 64].map(row));
+    }
+    record(rows);
+}
+
+fn record(rows: Vec<Row>) {
     const FRAMES: usize = 400;
-    println!("| ball | splats | image | camera | median us | least us | median us, caches emptied |");
+    println!(
+        "| balls | objects | splats each | image | by | camera | median us | least us | median us, caches emptied |"
+    );
     let beside = Beside::new(Style { validates: false, ..REVERSED });
     let engine = &beside.engine;
     let unrecorded = unrecorded::device(&engine.instance, &engine.device);
@@ -45,15 +79,20 @@ fn recording_alone_costs_so_much() {
     let device = unsafe { Device::import(&import) }.unwrap();
     let renderer = Renderer::new(&device, None).unwrap();
     let mut lines = vec![1_u64; EMPTYING_BYTES / size_of::<u64>()];
-    let mut of = |kind: &str, splats: usize, size_px: [u32; 2]| {
-        let settings = Settings { size_px, rasterizer: Rasterizer::Compute, ..Settings::default() };
+    for Row { kind, objects, splats, size_px, rasterizer } in rows {
+        let settings = Settings { size_px, rasterizer, ..Settings::default() };
         let ball = Object { closed: kind != "open", ..scenes::sphere(splats, DVec3::ZERO) };
         let levels = kind == "in levels of detail";
         let scene = Scene { objects: vec![ball], levels, ..Scene::default() };
         engine.begin();
         // SAFETY: recording; the copies are never submitted.
         let unseen = unsafe { renderer.upload(engine.commands, &scene) }.unwrap();
-        let placed = [Placed::at_home(&unseen)];
+        let placed: Vec<_> = (0..objects)
+            .map(|i| {
+                let translation = 0.02 * f64::from(i) * DVec3::new(1.0, 0.3, -0.2);
+                Placed::new(&unseen, Placement { translation, ..Placement::default() })
+            })
+            .collect();
         let rendering = Rendering { color_formats: vec![COLOR_FORMAT], ..Rendering::default() };
         let mut view = View::new(&renderer, &rendering).unwrap();
         for moves in [false, true] {
@@ -80,18 +119,12 @@ fn recording_alone_costs_so_much() {
             let camera = if moves { "moves" } else { "still" };
             let [width, height] = size_px;
             println!(
-                "| {kind} | {splats} | {width}x{height} | {camera} | {:.0} | {:.0} | {:.0} |",
+                "| {kind} | {objects} | {splats} | {width}x{height} | {} | {camera} | {:.1} | {:.1} | {:.0} |",
+                rasterizer.name(),
                 steady[steady.len() / 2],
                 steady[0],
                 cold[cold.len() / 2]
             );
-        }
-    };
-    for size_px in [[160, 120], [1024, 768]] {
-        for kind in ["closed", "open", "in levels of detail"] {
-            for splats in [1000, 30_000, 100_000, 400_000, 1_000_000] {
-                of(kind, splats, size_px);
-            }
         }
     }
     drop(renderer);
