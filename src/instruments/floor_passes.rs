@@ -86,7 +86,7 @@ pub fn floor_points<'a>(
         Access::StorageWriteCompute,
         Start::Discard,
     );
-    let pipeline = pass.compute(points_key(&draw.variant))?;
+    let pipeline = pass.compute(points_key(draw.variant))?;
     pass.finish(move |pass| {
         let groups = [draw.chunk.count.div_ceil(FLOOR_GROUP_SIZE), 1];
         dispatch(pass, draw.chunk, &draw.constants, pipeline, pass.set(Place::Lists(0))?, groups)
