@@ -20,10 +20,6 @@ pub struct Staging {
     device: Device,
     buffer: Buffer,
     used: usize,
-    /// Bytes that it has room for.
-    room: usize,
-    /// Where in the buffer the device writes that the copies have run.
-    told: u64,
     copies: Vec<(vk::Buffer, vk::BufferCopy)>,
     recorded: Arc<AtomicBool>,
 }
@@ -41,15 +37,7 @@ impl Staging {
         // SAFETY: it is new.
         let word = unsafe { buffer.bytes_mut() }.get_mut(told as usize..);
         word.into_iter().flatten().for_each(|byte| *byte = 0);
-        Ok(Self {
-            device: device.clone(),
-            buffer,
-            used: 0,
-            room: bytes as usize,
-            told,
-            copies: Vec::new(),
-            recorded: Arc::default(),
-        })
+        Ok(Self { device: device.clone(), buffer, used: 0, copies: Vec::new(), recorded: Arc::default() })
     }
 
     /// Adds bytes for `target`, whose usage includes `TRANSFER_DST`, from its byte `offset` on.
@@ -60,9 +48,9 @@ impl Staging {
         if !target.takes_copies(&self.device) {
             return Err(Error::option("upload", "the target is of another device, or without TRANSFER_DST"));
         }
-        let begin = self.used;
+        let (begin, end) = (self.used, self.told() as usize);
         // SAFETY: `record` asks that nothing be added while the device reads.
-        let all = unsafe { self.buffer.bytes_mut() }.get_mut(..self.room);
+        let all = unsafe { self.buffer.bytes_mut() }.get_mut(..end);
         let room = all.and_then(|all| all.get_mut(begin..begin + bytes.len()));
         let fits = offset.checked_add(bytes.len() as u64).is_some_and(|end| end <= target.size());
         let Some(room) = room.filter(|_| fits) else {
@@ -127,14 +115,19 @@ impl Staging {
         unsafe {
             self.record(commands);
             barrier([copy, clear], [none, none]);
-            device.cmd_fill_buffer(commands, self.buffer.raw(), self.told, TOLD_BYTES, HAS_RUN);
+            device.cmd_fill_buffer(commands, self.buffer.raw(), self.told(), TOLD_BYTES, HAS_RUN);
             barrier([clear, host], [vk::AccessFlags2::TRANSFER_WRITE, vk::AccessFlags2::HOST_READ]);
         }
     }
 
+    /// Where in the buffer the device tells that, behind the bytes that there is room for.
+    fn told(&self) -> u64 {
+        self.buffer.size() - TOLD_BYTES
+    }
+
     /// Whether the device has told that it has run the copies; what they are submitted in may go on.
     pub(super) fn has_run(&self) -> bool {
-        let word = self.buffer.mapped().map(|first| first.as_ptr().wrapping_add(self.told as usize));
+        let word = self.buffer.mapped().map(|first| first.as_ptr().wrapping_add(self.told() as usize));
         let word = word.map(|word| word.cast::<AtomicU32>()).filter(|word| word.is_aligned());
         // SAFETY: within the buffer, whose memory is mapped as long as it is here, and coherent; aligned. The device writes all of it at once.
         word.is_some_and(|word| unsafe { &*word }.load(Ordering::Acquire) == HAS_RUN)
