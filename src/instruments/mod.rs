@@ -2,6 +2,7 @@
 //! pipelines. Nothing of a picture is drawn by them.
 
 mod catalog;
+mod counting;
 mod floor;
 mod floor_passes;
 mod in_use;
@@ -14,6 +15,7 @@ mod paper;
 mod paper_passes;
 
 pub use catalog::{Traits, frame_pipelines, papers_pipelines};
+pub use counting::Counting;
 pub use floor::Floor;
 #[cfg(feature = "counts")]
 pub use instructions::{Counter, counts_of};
