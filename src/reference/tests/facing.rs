@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::*;
-use crate::scene::Backfaces;
+use crate::scene::{Backfaces, ClipBox};
 
 /// A disk that faces away.
 fn averted(center: DVec3) -> Ellipse {
@@ -25,6 +25,19 @@ fn flip_turns_the_normal_cull_drops_the_splat_and_auto_asks_the_object() {
     for (backfaces, closed) in [(Backfaces::Cull, false), (Backfaces::Cull, true), (Backfaces::Auto, true)] {
         assert_eq!(covered(&with(backfaces, closed)), 0, "{backfaces:?}, {closed}");
     }
+}
+
+/// What is closed is seen from inside where a plane cuts it open, and not where all planes leave all of it.
+#[test]
+fn backs_of_closed_objects_are_seen_where_a_plane_cuts_something() {
+    let mut scene = ellipses(&[averted(DVec3::Z * 2.0)]);
+    scene.objects[0].closed = true;
+    let from = |x: f64| {
+        let clip_box = ClipBox(Some([[x, -9.0, -9.0], [9.0; 3]]));
+        covered(&picture(&scene, &Settings { backfaces: Backfaces::Auto, clip_box, ..settings(33) }))
+    };
+    assert_eq!(from(-9.0), 0);
+    assert!(from(-0.5) > 0);
 }
 
 #[test]
