@@ -8,8 +8,6 @@ use surfel::{
     scene::{Camera, Encoding, Settings},
 };
 
-use winit::event_loop::EventLoopProxy;
-
 use super::{capture::free_name, on_device::OnDevice, told::News, viewer::Viewer};
 use crate::{
     outputs::PictureFormat,
@@ -37,12 +35,15 @@ pub struct Saving {
 }
 
 impl Saving {
-    fn new(writing: Writing, frame: Frame, proxy: EventLoopProxy<News>) -> Self {
-        let path = writing.path.clone();
+    /// Has a thread write it, and then say that it is done.
+    fn new(
+        path: PathBuf,
+        write: impl FnOnce() -> Result<()> + Send + 'static,
+        done: impl FnOnce() + Send + 'static,
+    ) -> Self {
         let thread = std::thread::spawn(move || {
-            let written = writing.write(&frame);
-            // Nobody hears it once the window is closed.
-            let _ = proxy.send_event(News::Written);
+            let written = write();
+            done();
             written
         });
         Self { path, thread }
@@ -149,7 +150,10 @@ impl Viewer {
                     self.window.request_redraw();
                     return;
                 }
-                self.saving = Some(Saving::new(writing, frame, self.loader.proxy()));
+                let (path, proxy) = (writing.path.clone(), self.loader.proxy());
+                // Nobody hears it once the window is closed.
+                let done = move || drop(proxy.send_event(News::Written));
+                self.saving = Some(Saving::new(path, move || writing.write(&frame), done));
             }
             Err(error) => self.tell(&error.to_string()),
         }
@@ -169,5 +173,26 @@ impl Viewer {
             ));
         };
         self.gpu.headless.render_sample(scene.scene(), camera, settings, writing.wanted(), *next)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{sync::mpsc::channel, time::Duration};
+
+    use super::*;
+
+    #[test]
+    fn who_has_a_picture_written_goes_on_meanwhile() {
+        let ((go, goes), (done, is_done)) = (channel(), channel());
+        let write = move || {
+            let waited = goes.recv_timeout(Duration::from_secs(5));
+            waited.map_err(|_| Error::option("picture", "nothing goes on while it is written"))
+        };
+        let saving = Saving::new(PathBuf::new(), write, move || done.send(()).unwrap());
+        assert!(is_done.try_recv().is_err());
+        go.send(()).unwrap();
+        saving.thread.join().unwrap().unwrap();
+        is_done.try_recv().unwrap();
     }
 }
