@@ -35,7 +35,9 @@ impl Viewer {
         let refines = self.refines.filter(|_| self.moved.is_none());
         let step = self.steps.as_ref().map(|steps| steps.next_look);
         let sample = self.next_sample(now);
-        let looks = [self.looks_for_costs, self.looks_for_pages, refines, self.tidies.next(), step, sample];
+        let count = self.counting.as_ref().map(|_| now + COST);
+        let looks =
+            [self.looks_for_costs, self.looks_for_pages, refines, self.tidies.next(), step, sample, count];
         let all = [rest, self.anchor.next_look(now), self.files.next_look(), self.ui.next_wake()]
             .into_iter()
             .chain(looks);
@@ -47,7 +49,7 @@ impl Viewer {
         let now = Instant::now();
         self.look_at_files();
         // Errors, such as a lost device, come with the next frame, too.
-        if self.hear_anchor().is_err() {
+        if self.hear_anchor().and(self.hear_count()).is_err() {
             self.window.request_redraw();
         }
         let rests = !self.anchor.waits() && self.moved.is_some_and(|moved| now >= moved + self.pace.rest());

@@ -97,17 +97,30 @@ impl Viewer {
         })
     }
 
-    /// Counts the splats that the picture at rest is made of, for the panel, by drawing it once more; 0 where a method does not list them.
+    /// Has the device count the splats that the picture at rest is made of, for the panel; 0 where a method does not list them.
     ///
     /// # Errors
-    /// As [`surfel::Headless::count_listed`].
+    /// As [`surfel::Headless::begin_count`].
     pub fn count_drawn(&mut self) -> Result<()> {
         let settings = self.at_rest(&Settings { size_px: self.window_px(), ..self.settings.clone() });
         let (Some(camera), Some(prepared)) = (self.camera(), &self.prepared) else { return Ok(()) };
         let settings = prepared.pages().map_or(Some(settings.clone()), |pages| pages.now(&settings));
         let Some(settings) = settings else { return Ok(()) };
-        self.splats_drawn = Some(self.gpu.headless.count_listed(prepared.scene(), &camera, &settings)?);
-        self.window.request_redraw();
+        self.counting = Some(self.gpu.headless.begin_count(prepared.scene(), &camera, &settings)?);
+        Ok(())
+    }
+
+    /// Takes their number, once the device has counted them.
+    ///
+    /// # Errors
+    /// Of the device.
+    pub fn hear_count(&mut self) -> Result<()> {
+        let Some(counting) = &self.counting else { return Ok(()) };
+        let drawn = counting.listed(self.gpu.headless.queue())?;
+        if drawn.is_some() {
+            (self.splats_drawn, self.counting) = (drawn, None);
+            self.window.request_redraw();
+        }
         Ok(())
     }
 

@@ -77,7 +77,7 @@ impl Viewer {
         self.warm = None;
         let is_coarse = self.shown == Use::Moving && !is_moving;
         if self.is_stale || is_coarse {
-            self.splats_drawn = None;
+            (self.splats_drawn, self.counting) = (None, None);
             (self.refined, self.refines, self.is_hasty) = (0, None, self.pace.is_slow());
         }
         let refinement = self.next_refinement(whole);

@@ -59,7 +59,7 @@ impl Viewer {
         if all {
             return;
         }
-        if self.ui.shows_times() && self.splats_drawn.is_none() && !self.is_stale {
+        if self.ui.shows_times() && self.splats_drawn.is_none() && self.counting.is_none() && !self.is_stale {
             let _ = self.count_drawn();
         }
         self.look_under_cursor();

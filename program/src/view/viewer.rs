@@ -4,6 +4,7 @@ use std::{sync::Arc, time::Instant};
 
 use glam::DVec3;
 use surfel::{
+    instruments::Counting,
     prepare::PreparedScene,
     scene::{Encoding, Samples, Settings},
 };
@@ -112,6 +113,8 @@ pub struct Viewer {
     pub is_hasty: bool,
     /// How many splats the picture at rest is made of, once they are counted.
     pub splats_drawn: Option<u64>,
+    /// The device counts them.
+    pub counting: Option<Counting>,
     /// When the next one may be.
     pub refines: Option<Instant>,
     /// When the costs of frames are looked for.
@@ -183,6 +186,7 @@ impl Viewer {
             refined: 0,
             is_hasty: false,
             splats_drawn: None,
+            counting: None,
             refines: None,
             looks_for_costs: None,
             looks_for_pages: None,

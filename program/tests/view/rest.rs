@@ -56,12 +56,14 @@ fn shown(view: &View<'_>) -> usize {
     view.said().matches("called: vkQueuePresentKHR").count()
 }
 
-/// Waits until no frame is shown any more for a second; how many were by then.
-fn settled(view: &View<'_>) -> usize {
+const SECOND: Duration = Duration::from_secs(1);
+
+/// Waits until no frame is shown any more for so long; how many were by then.
+fn settled(view: &View<'_>, quiet: Duration) -> usize {
     let begun = Instant::now();
     loop {
         let before = shown(view);
-        thread::sleep(Duration::from_secs(1));
+        thread::sleep(quiet);
         if shown(view) == before {
             return before;
         }
@@ -89,7 +91,7 @@ fn draws_what_has_changed_alone(file: &str) {
     // Pages are drawn in another order, which turns some pixels.
     let whole = render(&folder, &words);
     view.wait_until("all is shown", |shot| shot.differs_from(&whole) < 100);
-    let frames = settled(&view);
+    let frames = settled(&view, SECOND);
     // The mouse alone changes nothing.
     for x in 0..20 {
         screen.drive(&["mousemove", &(100 + x).to_string(), "100"]);
@@ -99,10 +101,11 @@ fn draws_what_has_changed_alone(file: &str) {
     assert!(frames > 0);
     // What has changed is drawn, and then it rests again; with times, too.
     screen.drag([100, 100], [140, 110], 1);
-    let turned = settled(&view);
+    let turned = settled(&view, SECOND);
     assert!(turned > frames, "{file}");
     screen.key("o");
-    let with_panel = settled(&view);
+    // Half a second after the last one splats are counted for the panel, which shows their number in one more.
+    let with_panel = settled(&view, 3 * SECOND);
     assert!(with_panel > turned, "{file}");
     thread::sleep(Duration::from_secs(2));
     assert_eq!(shown(&view), with_panel, "{file}");
