@@ -202,7 +202,6 @@ impl Queue {
     ///
     /// # Errors
     /// Whatever the driver answers, such as a lost device.
-    #[cfg(feature = "view")]
     pub fn is_done(&self, epoch: u64) -> Result<bool> {
         // SAFETY: the semaphore is alive.
         let reached = unsafe { self.device.raw().get_semaphore_counter_value(self.timeline) };
