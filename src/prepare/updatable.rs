@@ -109,10 +109,10 @@ impl Shadow {
             for (i, place) in which.iter().map(|[_, place]| *place as usize).enumerate() {
                 let (from, to) = (i * shape, place * shape);
                 for word in 0..shape {
-                    // How much surfaces overlap there, how near another one is and how they turn stays as it was found.
+                    // How much surfaces overlap there, and how near another one is, stays as it was found.
                     let kept = self.splats.shapes[to + word][3];
                     self.splats.shapes[to + word] = packed.shapes[from + word];
-                    if word > 0 {
+                    if word == 1 {
                         self.splats.shapes[to + word][3] = kept;
                     }
                 }

@@ -108,10 +108,9 @@ impl Placement {
             return *camera;
         }
         let back = self.rotation.normalize().conjugate();
-        let point = |world: DVec3| back * (world - self.translation) / self.scale;
         Camera {
-            eye: point(camera.eye),
-            target: point(camera.target),
+            eye: self.eye(camera),
+            target: back * (camera.target - self.translation) / self.scale,
             up: back * camera.usable_up(),
             near: Some(camera.near() / self.scale),
             orthographic_height: camera.orthographic_height.map(|height| height / self.scale),

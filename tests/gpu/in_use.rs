@@ -108,6 +108,28 @@ fn lists_of_overflow_tiles_of_chunks_and_of_all_splats_are_told() {
     assert!(whole.bytes["rects of tiles"] < 4 * 6_000, "{}", whole.bytes["rects of tiles"]);
 }
 
+/// Of objects of which one is out of view: a host asks until the device has counted, and hears what the lists of a frame hold.
+#[test]
+fn splats_are_counted_while_a_host_goes_on() {
+    let mut headless = shared();
+    let balls = [0.0, 0.5, 900.0].map(|x| sphere(10_000, DVec3::new(x, 0.0, 0.0)));
+    for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
+        let settings = Settings { rasterizer, cull: Cull::List, ..by_tiles([131, 203]) };
+        let balls = hard(balls.to_vec(), [0.0, 0.0, 3.2], settings);
+        let held = in_use(&mut headless, &balls).bytes["list of visible splats"] / 4;
+        let prepared = headless.prepare(&balls.scene, &|_, _| {}).unwrap();
+        let counting = headless.begin_count(&prepared, &balls.camera, &balls.settings).unwrap();
+        let mut answers = std::iter::repeat_with(|| counting.listed(headless.queue()).unwrap());
+        assert_eq!(answers.find_map(|count| count), Some(held), "{rasterizer:?}");
+        assert!((5_000..20_000).contains(&held), "{rasterizer:?}: {held}");
+        assert_eq!(
+            headless.count_listed(&prepared, &balls.camera, &balls.settings).unwrap(),
+            held,
+            "{rasterizer:?}"
+        );
+    }
+}
+
 /// A tile's list has the same splats however the image is cut; those at the borders of bands are set up for both.
 #[test]
 fn lists_of_bands_hold_together_what_one_of_all_does() {

@@ -65,6 +65,7 @@ pub enum Formula {
     ClipRamp,
     Plane,
     Crease,
+    SharpSum,
 }
 
 impl Formula {
@@ -86,8 +87,9 @@ impl Formula {
     /// Those of surfaces that cover pixels in part where they end.
     pub const OF_EDGES: [Self; 2] = [Self::EdgeOpacity, Self::Share];
 
-    /// Those of clip curves; the last two of them where these cover pixels in part.
-    pub const OF_CLIPS: [Self; 4] = [Self::ClipLine, Self::ClipCurve, Self::ClipRamp, Self::Crease];
+    /// Those of clip curves; the last three of them where these cover pixels in part.
+    pub const OF_CLIPS: [Self; 5] =
+        [Self::ClipLine, Self::ClipCurve, Self::ClipRamp, Self::Crease, Self::SharpSum];
 
     /// That of planes that cut what is seen.
     pub const OF_PLANES: [Self; 1] = [Self::Plane];

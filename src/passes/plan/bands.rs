@@ -219,14 +219,10 @@ mod tests {
     use glam::{DVec3, Vec3};
 
     use super::*;
+    use crate::passes::plan::tiles::rows::{Drawn, rows_of_image};
     use crate::{
         math::random::SplitMix,
-        passes::plan::{
-            FramePlan,
-            draws::draws,
-            range::DepthRange,
-            tiles::rows::{Drawn, rows_of_image},
-        },
+        passes::plan::{FramePlan, draws::draws, range::DepthRange},
         prepare::{Placed, PreparedScene, prepare_without_device},
         scene::{Camera, Colors, Edges, Object, Rasterizer, Scene, Shapes, Splats},
     };
@@ -285,11 +281,10 @@ mod tests {
                 tile_memory: TileMemory::Most(most),
                 ..Settings::default()
             };
-            let range = DepthRange::of(&[Placed::at_home(&prepared)], &camera());
+            let (placed, arena) = (Placed::at_home(&prepared), Arena::new());
+            let range = DepthRange::of(&[placed], &camera());
             let camera = range.begin(&camera());
-            let arena = Arena::new();
-            let draws =
-                arena.list(draws(&arena, Placed::at_home(&prepared), (&camera, range), &settings, &limits));
+            let draws = arena.list(draws(&arena, placed, (&camera, range), &settings, &limits));
             let rows = rows_of_image(&settings);
             let runs = arena.list(draws.iter().map(|draw| draw.potentially_visible_runs(&arena)));
             let seen = PotentiallyVisibleBlocks::new(&arena, runs, rows.end);

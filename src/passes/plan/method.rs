@@ -112,7 +112,7 @@ fn bands<'a>(
         let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_runs(arena)));
         PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
-    let drawn = || Drawn::new(arena, splats);
+    let drawn = Drawn::new(arena, splats);
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
     // Bands may have room for what is too large for lists of all of the image; but polygons may be drawn between two passes over all of it, and levels of detail
     // are counted in one list.
@@ -129,11 +129,11 @@ fn bands<'a>(
         if !culling::list_has_room(seen.block_count(), limits) {
             return None;
         }
-        let of_blocks = TilePlan::of_blocks(drawn(), &seen, rows.clone(), culls_hidden, settings, limits);
-        let whole = of_blocks.or_else(|| TilePlan::of(drawn(), culls_hidden, settings, limits))?;
+        let of_blocks = TilePlan::of_blocks(drawn, &seen, rows.clone(), culls_hidden, settings, limits);
+        let whole = of_blocks.or_else(|| TilePlan::of(drawn, culls_hidden, settings, limits))?;
         (seen, whole, &[][..])
     } else {
-        let whole = TilePlan::of(drawn(), culls_hidden, settings, limits)?;
+        let whole = TilePlan::of(drawn, culls_hidden, settings, limits)?;
         // Bands are made of listed splats, too.
         let gains =
             culling::may_leave_out(splats) || whole.bytes() > most_bytes(splats, settings.tile_memory);

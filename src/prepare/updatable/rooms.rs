@@ -28,9 +28,7 @@ impl RoomOf {
 /// So many places with nobody, over surfaces of which this is what weights are multiplied by.
 pub(in super::super) fn empties(count: usize, survey: &Survey, inverse_overlap: u32) -> Packed {
     let (shape, color) = (survey.shape_bytes() / 16, survey.color_bytes() / 4);
-    // Where nobody knows how it turns, a surface may end anywhere.
-    let turn = 1.0_f32.to_bits();
-    let one = [[0, 0, 0, NOBODY.to_bits()], [0, 0, 0, inverse_overlap], [0, 0, 0, turn], [0; 4]];
+    let one = [[0, 0, 0, NOBODY.to_bits()], [0, 0, 0, inverse_overlap], [0; 4], [0; 4]];
     Packed {
         count: count as u32,
         shapes: std::iter::repeat_n(&one[..shape], count).flatten().copied().collect(),
