@@ -107,11 +107,17 @@ impl Placement {
         if *self == Self::default() {
             return *camera;
         }
+        self.camera_of_usable_up(&Camera { up: camera.usable_up(), ..*camera })
+    }
+
+    /// The same of a camera whose up is neither zero nor parallel to the view.
+    pub(crate) fn camera_of_usable_up(&self, camera: &Camera) -> Camera {
         let back = self.rotation.normalize().conjugate();
+        let to_scene = |point: DVec3| back * (point - self.translation) / self.scale;
         Camera {
-            eye: self.eye(camera),
-            target: back * (camera.target - self.translation) / self.scale,
-            up: back * camera.usable_up(),
+            eye: to_scene(camera.eye),
+            target: to_scene(camera.target),
+            up: back * camera.up,
             near: Some(camera.near() / self.scale),
             orthographic_height: camera.orthographic_height.map(|height| height / self.scale),
             ..*camera

@@ -17,7 +17,7 @@ use crate::passes::{
         in_view::{center_and_half, in_view, nearest_z, wholly_in_view},
         levels::LevelView,
         range::DepthRange,
-        scene_view::SceneView,
+        scene_view::{CameraView, SceneView},
         seen::PotentiallyVisibleRun,
         splat_variants::{SplatVariants, change_variants},
     },
@@ -143,19 +143,19 @@ pub fn draws<'a, 's>(
     settings: &'s Settings,
     limits: &'s Limits,
 ) -> impl Iterator<Item = Draw<'a>> + use<'a, 's> {
-    let view = arena.keep(SceneView::new(arena, &placed.at, seen, settings));
+    let view = arena.keep(CameraView::new(seen, settings).of_scene(arena, &placed.at));
     let variants = SplatVariants::new(arena, settings, limits);
     placed
         .scene
         .chunks
         .iter()
-        .filter_map(move |chunk| draw(arena, (placed, chunk), view, settings, &variants))
+        .filter_map(move |chunk| draw(arena, (placed, 0, chunk), view, settings, &variants))
 }
 
-/// A chunk of a scene that is seen so; none where the scene itself is drawn and the chunk stands for its splats.
+/// A chunk of a scene, which has that number among those of the frame, and is seen so; none where the scene itself is drawn and the chunk stands for its splats.
 pub(super) fn draw<'a>(
     arena: &'a Arena,
-    (Placed { at, .. }, chunk): (Placed<'a>, &'a Chunk),
+    (Placed { at, .. }, number, chunk): (Placed<'a>, u32, &'a Chunk),
     of_scene: &SceneView<'a>,
     settings: &Settings,
     variants: &SplatVariants<'a, '_>,
@@ -206,7 +206,7 @@ pub(super) fn draw<'a>(
     let clip = of_scene.clip;
     Some(Draw {
         chunk,
-        placed: 0,
+        placed: number,
         constants,
         largest_box_px,
         view,

@@ -2,7 +2,12 @@
 
 use crate::passes::{
     pipeline::constants::FrameConstants,
-    plan::{frame_constants::frame_constants, levels::LevelView, range::DepthRange, scene_view::SceneView},
+    plan::{
+        frame_constants::frame_constants,
+        levels::LevelView,
+        range::DepthRange,
+        scene_view::{CameraView, SceneView},
+    },
 };
 use crate::{
     arena::Arena,
@@ -41,7 +46,7 @@ pub fn mesh_draws<'a, 's>(
     (arena, camera, range): (&'s Arena, &Camera, DepthRange),
     settings: &'s Settings,
 ) -> impl Iterator<Item = MeshDraw<'a>> + use<'a, 's> {
-    let view = arena.keep(SceneView::new(arena, &placed.at, (camera, range), settings));
+    let view = arena.keep(CameraView::new((camera, range), settings).of_scene(arena, &placed.at));
     placed.scene.meshes.iter().map(move |chunk| mesh_draw(placed, chunk, view, settings))
 }
 

@@ -39,7 +39,7 @@ use crate::passes::plan::{
     draws::{Draw, draw},
     mesh_draws::{MeshDraw, mesh_draw},
     range::DepthRange,
-    scene_view::SceneView,
+    scene_view::CameraView,
     splat_variants::SplatVariants,
     tiles::TilePlan,
 };
@@ -136,8 +136,9 @@ impl<'a> FramePlan<'a> {
         let range = DepthRange::of(scenes, camera);
         let camera = &range.begin(camera);
         let lights = lights::shader_lights(arena, scenes, camera);
-        let views = scenes.iter().map(|placed| SceneView::new(arena, &placed.at, (camera, range), settings));
-        let (views, variants) = (arena.list(views), SplatVariants::new(arena, settings, limits));
+        let seen = CameraView::new((camera, range), settings);
+        let views = arena.list(scenes.iter().map(|placed| seen.of_scene(arena, &placed.at)));
+        let variants = SplatVariants::new(arena, settings, limits);
         let surface = |transparent: bool| {
             // What is to come has pipelines ahead.
             let is_drawn =
@@ -147,8 +148,7 @@ impl<'a> FramePlan<'a> {
             splats.reserve(drawn.count());
             for ((placed, number), view) in scenes.iter().zip(0..).zip(views) {
                 for chunk in placed.scene.chunks.iter().filter(|chunk| is_drawn(chunk)) {
-                    let own = draw(arena, (*placed, chunk), view, settings, &variants);
-                    splats.extend(own.map(|draw| Draw { placed: number, ..draw }));
+                    splats.extend(draw(arena, (*placed, number, chunk), view, settings, &variants));
                 }
                 let own = placed.scene.meshes.iter().filter(|chunk| chunk.transparent == transparent);
                 meshes.extend(

@@ -1,13 +1,25 @@
-//! A camera as it stands in a scene's own space, and what follows from it alone: found once for all that the scene has, for a frame may show hundreds of small scenes.
+//! A camera as it stands in a scene's own space, and what follows from it alone: found once for all that the scene has, and for all scenes where it is the same, for
+//! a frame may show hundreds of small ones.
 
-use glam::DVec4;
+use glam::{DMat3, DVec4};
 
 use crate::{
     arena::Arena,
+    inline_vec::InlineVec,
     passes::plan::range::DepthRange,
     prepare::ViewFromLocal,
-    scene::{Camera, Placement, Settings, ViewFromWorld},
+    scene::{Camera, MOST_PLANES, Placement, Settings, ViewFromWorld},
 };
+
+/// A frame's camera in the world.
+pub(crate) struct CameraView {
+    camera: Camera,
+    range: DepthRange,
+    view: ViewFromWorld,
+    clip: InlineVec<DVec4, MOST_PLANES>,
+    height_px: u32,
+    focal_px: f64,
+}
 
 /// How a frame sees a scene that stands somewhere.
 #[derive(Clone, Copy)]
@@ -24,21 +36,46 @@ pub(crate) struct SceneView<'a> {
     focal_px: f64,
 }
 
-impl<'a> SceneView<'a> {
+impl CameraView {
     /// The view of a camera, whose depths begin where it is ([`DepthRange::begin`]).
-    pub fn new(
-        arena: &'a Arena,
-        at: &Placement,
-        (camera, range): (&Camera, DepthRange),
-        settings: &Settings,
-    ) -> Self {
-        let (camera, range) = (at.camera(camera), range.within(at));
-        let clip = settings.clip();
-        let clip = if clip.is_empty() { &[] } else { arena.list(clip.iter().map(|plane| at.plane(*plane))) };
-        let (view, near) = (camera.view_from_world(), camera.near());
-        Self { camera, range, view, clip, near, focal_px: camera.focal_px(settings.size_px[1]) }
+    pub fn new((camera, range): (&Camera, DepthRange), settings: &Settings) -> Self {
+        let height_px = settings.size_px[1];
+        Self {
+            camera: Camera { up: camera.usable_up(), ..*camera },
+            range,
+            view: camera.view_from_world(),
+            clip: settings.clip(),
+            height_px,
+            focal_px: camera.focal_px(height_px),
+        }
     }
 
+    /// The same of a scene that stands there.
+    pub fn of_scene<'a>(&self, arena: &'a Arena, at: &Placement) -> SceneView<'a> {
+        let Self { view, focal_px, .. } = *self;
+        let clip = &self.clip[..];
+        let clip = if clip.is_empty() { &[] } else { arena.list(clip.iter().map(|plane| at.plane(*plane))) };
+        let is_home = *at == Placement::default();
+        let camera = if is_home { self.camera } else { at.camera_of_usable_up(&self.camera) };
+        SceneView {
+            camera,
+            range: self.range.within(at),
+            view: match is_home {
+                true => view,
+                false => ViewFromWorld {
+                    rotation: view.rotation * DMat3::from_quat(at.rotation.normalize()),
+                    eye: camera.eye,
+                },
+            },
+            clip,
+            near: camera.near(),
+            // That of parallel rays is a length's.
+            focal_px: if camera.is_orthographic() { camera.focal_px(self.height_px) } else { focal_px },
+        }
+    }
+}
+
+impl SceneView<'_> {
     /// The depth of the near plane in view space. `digits.rs` refuses one that f32 does not have, but for stray splats.
     pub fn near(&self, view: &ViewFromLocal) -> f64 {
         (self.near * view.view_from_world_scale).max(1e-37)
