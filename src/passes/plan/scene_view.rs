@@ -87,3 +87,36 @@ impl SceneView<'_> {
         self.focal_px / unit
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DQuat, DVec3};
+
+    use super::*;
+
+    /// Also of a camera that looks along its own up, and of one of parallel rays.
+    #[test]
+    fn a_scene_is_seen_as_by_the_camera_that_is_moved_to_it() {
+        let (arena, settings) = (Arena::new(), Settings::default());
+        let at = Placement {
+            rotation: DQuat::from_axis_angle(DVec3::new(0.3, -1.0, 0.4).normalize(), 2.1),
+            scale: 0.25,
+            translation: DVec3::new(3.0, -2.0, 0.5),
+        };
+        let camera = Camera { eye: DVec3::new(0.4, 3.0, 5.0), near: Some(0.1), ..Camera::default() };
+        let along_up = Camera { eye: camera.target + DVec3::Y, ..camera };
+        let parallel = Camera { orthographic_height: Some(2.0), ..camera };
+        for camera in [camera, along_up, parallel] {
+            let view = CameraView::new((&camera, DepthRange::default()), &settings);
+            for at in [at, Placement::default()] {
+                let (found, expected) = (view.of_scene(&arena, &at), at.camera(&camera));
+                let motion = expected.view_from_world();
+                assert!(found.view.rotation.abs_diff_eq(motion.rotation, 1e-14), "{camera:?}");
+                assert!(found.view.eye.abs_diff_eq(motion.eye, 1e-14), "{camera:?}");
+                let focal_px = expected.focal_px(settings.size_px[1]);
+                assert!((found.focal_px / focal_px - 1.0).abs() < 1e-14, "{camera:?}");
+                assert_eq!(found.near, expected.near(), "{camera:?}");
+            }
+        }
+    }
+}
