@@ -3,7 +3,10 @@
 use std::ptr::NonNull;
 
 use ash::vk;
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme, Allocator};
+use gpu_allocator::{
+    AllocationError,
+    vulkan::{Allocation, AllocationCreateDesc, AllocationScheme, Allocator},
+};
 
 use super::{budget::MemoryInUse, memory::MemoryUse};
 use crate::error::{Error, ErrorKind};
@@ -192,7 +195,7 @@ impl Source {
                     linear,
                     allocation_scheme: AllocationScheme::GpuAllocatorManaged,
                 };
-                allocator.allocate(&desc).map(PieceOf::Ours).map_err(|error| failed(error.to_string()))?
+                allocator.allocate(&desc).map(PieceOf::Ours).map_err(|error| told(error, name, failed))?
             }
             From::Host(host) => {
                 let given = host.allocate(request);
@@ -251,5 +254,22 @@ impl Source {
             From::Ours(allocator) => allocator.capacity(),
             From::Host(_) => self.in_use.total(),
         }
+    }
+}
+
+/// An error of the allocator's as one of the call of Vulkan's that failed. A device that is lost has memory.
+fn told(error: AllocationError, name: &str, failed: impl Fn(String) -> Error) -> Error {
+    let lost = vk::Result::ERROR_DEVICE_LOST;
+    match error {
+        AllocationError::OutOfMemory => failed("vkAllocateMemory: out of memory".to_owned()),
+        // The allocator tells only in words what was answered.
+        AllocationError::Internal(text) if text.ends_with(&format!("vkAllocateMemory: {lost:?}")) => {
+            Error::vulkan("vkAllocateMemory", name, lost)
+        }
+        AllocationError::FailedToMap(text) if text == lost.to_string() => {
+            Error::vulkan("vkMapMemory", name, lost)
+        }
+        AllocationError::FailedToMap(text) => failed(format!("vkMapMemory: {text}")),
+        other => failed(other.to_string()),
     }
 }

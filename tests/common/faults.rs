@@ -45,14 +45,27 @@ pub fn stop() -> Option<&'static str> {
     FAILED.take()
 }
 
-/// An error names the object and what its function answered, as one of the device.
+/// `vkQueueSubmit2` of `queue_submit2`.
+fn called(function: &str) -> String {
+    let capital = |word: &str| word[..1].to_ascii_uppercase() + &word[1..];
+    function.split('_').fold("vk".to_owned(), |call, word| call + &capital(word))
+}
+
+/// An error names the call, the object and what was answered, as one of the device.
 #[track_caller]
 pub fn is_told(function: &str, answer: vk::Result, error: &surfel::Error) {
     assert_eq!(error.exit_code(), 2, "{function}: {error}");
     let text = error.to_string();
     assert!(!text.contains("''"), "{function}: no object is named: {error}");
-    let is_memory = matches!(error.kind(), surfel::ErrorKind::Memory { .. });
-    assert!(is_memory || text.contains(&format!("{answer:?}")), "{function}: not what was answered: {error}");
+    let call = called(function);
+    assert!(text.contains(&call), "{call}: the call is not named: {error}");
+    // What was answered is in the kind, of memory by what that is.
+    match error.kind() {
+        surfel::ErrorKind::Memory { .. } => {
+            assert_ne!(answer, vk::Result::ERROR_DEVICE_LOST, "{call}: {error}")
+        }
+        _ => assert!(text.contains(&format!("{answer:?}")), "{call}: not what was answered: {error}"),
+    }
 }
 
 /// The functions that can fail, call by call since the last time that this was asked for.

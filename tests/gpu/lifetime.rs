@@ -205,8 +205,7 @@ fn assert_fail<T>(
         };
         failed += 1;
         let error = result.expect_err(function);
-        assert_eq!(error.exit_code(), 2, "{function}: {error}");
-        assert!(!error.to_string().contains("''"), "{function}: no object is named: {error}");
+        faults::is_told(function, vk::Result::ERROR_OUT_OF_DEVICE_MEMORY, &error);
         assert_eq!(finish(), before, "{succeed}: {function}");
         assert_eq!(host.said(), [] as [String; 0], "{succeed}: {function}");
     }
@@ -231,6 +230,22 @@ fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
     }
     let failed = assert_fail(&host, &device, 0..of_set_up.len(), &|| (), &|()| set_up(&device).map(drop));
     assert!(failed + 3 >= of_set_up.len() && failed > 30, "{failed} of {of_set_up:?}");
+    // Calls of the allocator, on a device that has no block yet; of one that is lost memory is not what is short.
+    let answers = [vk::Result::ERROR_DEVICE_LOST, vk::Result::ERROR_OUT_OF_DEVICE_MEMORY];
+    for (function, answer) in
+        ["allocate_memory", "map_memory"].into_iter().flat_map(|of| answers.map(|is| (of, is)))
+    {
+        let lent = host.lend(faults::device(&host.instance, &host.device));
+        faults::take_called();
+        set_up(&lent).map(drop).unwrap();
+        let place = faults::take_called().iter().position(|called| *called == function).unwrap();
+        drop(lent);
+        let lent = host.lend(faults::device(&host.instance, &host.device));
+        faults::fail_so(place as u32, answer);
+        let error = set_up(&lent).map(drop).expect_err(function);
+        assert_eq!(faults::stop(), Some(function));
+        faults::is_told(function, answer, &error);
+    }
     // A renderer that has its pipelines.
     let failed = assert_fail(&host, &device, 0..of_next.len(), &|| (), &|()| record(&device, &own));
     assert!(failed + 3 >= of_next.len() && failed > 20, "{failed} of {of_next:?}");
