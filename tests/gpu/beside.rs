@@ -18,6 +18,7 @@ mod refusals;
 mod ring;
 mod rooms;
 mod several;
+mod state;
 mod tints;
 mod transparent;
 mod turning;
