@@ -1526,6 +1526,20 @@ SurfelResult surfel_device_end_epoch(const struct SurfelDevice *device, uint64_t
 SurfelResult surfel_device_epoch_done(const struct SurfelDevice *device, uint64_t epoch);
 
 /**
+ * As `surfel_device_end_epoch`, by the value that the host's own timeline semaphore has once the device has finished the submission. Values rise from call to call, by
+ * whichever steps; one that does not is refused, and the epoch goes on.
+ */
+SurfelResult surfel_device_end_epoch_at(const struct SurfelDevice *device,
+                                        uint64_t value);
+
+/**
+ * As `surfel_device_epoch_done`, for all epochs that were ended by this value or one below (`surfel_device_end_epoch_at`): with what `vkGetSemaphoreCounterValue` tells of the host's timeline
+ * semaphore.
+ */
+SurfelResult surfel_device_timeline_at(const struct SurfelDevice *device,
+                                       uint64_t value);
+
+/**
  * Tells how much device memory our objects have: bytes in use, and bytes that are taken from the device for it.
  */
 SurfelResult surfel_device_memory(const struct SurfelDevice *device, uint64_t *used, uint64_t *held);

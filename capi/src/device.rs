@@ -111,6 +111,27 @@ pub unsafe extern "C" fn surfel_device_epoch_done(device: *const SurfelDevice, e
     })
 }
 
+/// As `surfel_device_end_epoch`, by the value that the host's own timeline semaphore has once the device has finished the submission. Values rise from call to call, by
+/// whichever steps; one that does not is refused, and the epoch goes on.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_device_end_epoch_at(device: *const SurfelDevice, value: u64) -> SurfelResult {
+    guard("surfel_device_end_epoch_at", || {
+        // SAFETY: the contract of the header.
+        Ok(unsafe { get(device, "device")? }.0.end_epoch_at(value)?)
+    })
+}
+
+/// As `surfel_device_epoch_done`, for all epochs that were ended by this value or one below (`surfel_device_end_epoch_at`): with what `vkGetSemaphoreCounterValue` tells of the host's timeline
+/// semaphore.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_device_timeline_at(device: *const SurfelDevice, value: u64) -> SurfelResult {
+    guard("surfel_device_timeline_at", || {
+        // SAFETY: the contract of the header.
+        unsafe { get(device, "device")?.0.timeline_at(value) };
+        Ok(())
+    })
+}
+
 /// Tells how much device memory our objects have: bytes in use, and bytes that are taken from the device for it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_device_memory(

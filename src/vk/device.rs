@@ -13,6 +13,7 @@ use super::{
     facts::{all_facts, check_executables, has_extension},
     garbage::{Garbage, Retired},
     host_memory::{HostMemory, Source},
+    host_timeline::HostTimeline,
     instance::Instance,
     requirements::offered,
     result::VkResultExt,
@@ -39,6 +40,7 @@ pub(super) struct Shared {
     // `None` only while `drop` runs. Locked together, so that there is one order of locks.
     memory: Mutex<Option<(Source, Garbage)>>,
     pub(super) uploads: Uploads,
+    pub(super) timeline: HostTimeline,
     /// Whether a [`super::Queue`] counts the epochs; a host does so for a borrowed device.
     queue_taken: AtomicBool,
     origin: Origin,
@@ -156,6 +158,7 @@ impl Device {
             done: AtomicU64::new(FIRST_EPOCH - 1),
             memory: Mutex::new(Some((source, Garbage::default()))),
             uploads: Uploads::default(),
+            timeline: HostTimeline::default(),
             queue_taken: AtomicBool::new(!owned),
             origin,
             // SAFETY: both are alive and belong together.
@@ -207,8 +210,7 @@ impl Device {
         self.0.names.as_ref()
     }
 
-    /// Ends the epoch in which commands were recorded and returns its number. Whoever submits (our queue, or the
-    /// embedding host once per submission that contains our commands) calls it at the submission.
+    /// Ends the epoch in which commands were recorded and returns its number. Whoever submits (our queue, or the embedding host once per submission that contains our commands) calls it at the submission.
     pub fn end_epoch(&self) -> u64 {
         self.0.epoch.fetch_add(1, Ordering::AcqRel)
     }
@@ -288,8 +290,7 @@ impl Drop for Shared {
     }
 }
 
-/// How much device memory is taken at once. What is larger than a block gets memory of its own, of its exact size; so a
-/// block is what may lie idle beside it, and the crate's own 256 MiB would be six times the memory of a million splats.
+/// How much device memory is taken at once. What is larger than a block gets memory of its own, of its exact size; so a block is what may lie idle beside it, and the crate's own 256 MiB would be six times the memory of a million splats.
 fn block_sizes() -> gpu_allocator::AllocationSizes {
     const FIRST_BYTES: u64 = 8 << 20;
     const MOST_BYTES: u64 = 16 << 20;

@@ -23,6 +23,7 @@ mod formats;
 mod garbage;
 mod graphics_pipeline;
 mod host_memory;
+mod host_timeline;
 mod image;
 mod import;
 mod instance;

@@ -19,6 +19,7 @@ mod ring;
 mod rooms;
 mod several;
 mod state;
+mod timeline;
 mod tints;
 mod transparent;
 mod turning;

@@ -149,6 +149,17 @@ static SurfelDevice *import(Engine *engine, uint64_t features) {
     return device;
 }
 
+/* By the host's own timeline: values rise, and what has no epoch is nothing. */
+static void timeline(const SurfelDevice *device) {
+    IS(INVALID_ARGUMENT, surfel_device_end_epoch_at(NULL, 1), "device is NULL");
+    OK(surfel_device_end_epoch_at(device, 40));
+    IS(OPTION, surfel_device_end_epoch_at(device, 40), "epoch: 40: expected more than 40");
+    OK(surfel_device_timeline_at(device, 39));
+    OK(surfel_device_timeline_at(device, 1000));
+    OK(surfel_device_end_epoch_at(device, 41));
+    OK(surfel_device_timeline_at(device, 41));
+}
+
 int main(int argc, char **argv) {
     if (argc != 3) return 1;
     TRUE(surfel_version() == SURFEL_VERSION);
@@ -185,6 +196,7 @@ int main(int argc, char **argv) {
         SurfelRenderer *renderer;
         IS(INVALID_ARGUMENT, surfel_renderer_create(NULL, NULL, &renderer), "device is NULL");
         OK(surfel_renderer_create(device, NULL, &renderer));
+        timeline(device);
         shapes(engine, device, renderer);
         dynamic(engine, device, renderer);
         steady(engine, device, renderer);
