@@ -54,7 +54,7 @@
 #define SURFEL_FEATURE_DRAW_INDIRECT_COUNT 64
 
 /**
- * `pipelineStatisticsQuery`; no function of this header needs it.
+ * `pipelineStatisticsQuery`; without it `SURFEL_MEASURE_COUNTS` counts nothing.
  */
 #define SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY 128
 
@@ -1135,11 +1135,11 @@ typedef struct SurfelDepthImage {
    */
   const void *pNext;
   /**
-   * One sample a pixel, one layer, one mip level; usage `VK_IMAGE_USAGE_SAMPLED_BIT`.
+   * One sample a pixel, one mip level; usage `VK_IMAGE_USAGE_SAMPLED_BIT`.
    */
   VkImage image;
   /**
-   * A view of its depth alone.
+   * A view of its depth alone, of one layer.
    */
   VkImageView view;
   /**
@@ -1179,9 +1179,9 @@ typedef struct SurfelDepthImage {
    */
   uint32_t height;
   /**
-   * 0; else it is refused.
+   * The layer that `view` shows: of an image that has one for each eye, say. All else of the image is left as it is.
    */
-  uint32_t reserved;
+  uint32_t layer;
 } SurfelDepthImage;
 
 /**
@@ -1307,7 +1307,7 @@ typedef struct SurfelFrame {
 } SurfelFrame;
 
 /**
- * An image of the host's that a view is drawn onto: with the samples that its rendering has, one layer, one mip level.
+ * An image of the host's that a view is drawn onto, or one layer of it: with the samples that its rendering has, one mip level.
  */
 typedef struct SurfelHostImage {
   /**
@@ -1327,7 +1327,7 @@ typedef struct SurfelHostImage {
    */
   VkImage image;
   /**
-   * A view of all of it.
+   * A view of all of it, or of the layer.
    */
   VkImageView view;
   /**
@@ -1386,9 +1386,9 @@ typedef struct SurfelHostImage {
    */
   uint32_t familyAfter;
   /**
-   * 0; else it is refused.
+   * The layer that `view` shows: of an image that has one for each eye, say. All else of the image is left as it is.
    */
-  uint32_t reserved;
+  uint32_t layer;
 } SurfelHostImage;
 
 /**
@@ -1727,15 +1727,17 @@ SurfelResult surfel_view_create(const struct SurfelRenderer *renderer, const str
 
 /**
  * Records the passes of a frame: all but its draws. `commands` must be recording, outside of rendering, without an active query, and be
- * submitted to the device's queue. The frame prepared before in this view must have finished. View and scenes must not be destroyed before
- * the submission, and the images of `hides` not before it has finished.
+ * submitted to the device's queue, after those of the frame prepared before in this view, whose draws are recorded before: what the host writes for a frame is kept apart until
+ * its epoch is done. View and scenes must not be destroyed before the submission, and the images of `hides` not before it has finished.
  */
-SurfelResult surfel_view_prepare(struct SurfelView *view, VkCommandBuffer commands, const struct SurfelFrame *frame);
+SurfelResult surfel_view_prepare(struct SurfelView *view,
+                                 VkCommandBuffer commands,
+                                 const struct SurfelFrame *frame);
 
 /**
- * Records the draws of the frame that was prepared: one to three triangles. `commands` are those of `surfel_view_prepare`, or others that
+ * Records the draws of the frame that was prepared: up to three triangles. `commands` are those of `surfel_view_prepare`, or others that
  * are submitted after them to the same queue; they are inside of a rendering as the view was made for, which covers the view's area.
- * Clobbers the pipeline, viewport and scissor, and of the graphics bind point all sets and push constants.
+ * Clobbers viewport and scissor, and of the graphics bind point the pipeline, all sets and push constants.
  */
 SurfelResult surfel_view_draw(const struct SurfelView *view, VkCommandBuffer commands);
 

@@ -23,9 +23,9 @@ pub struct SurfelDepthImage {
     pub size: u32,
     /// NULL.
     pub p_next: *const c_void,
-    /// One sample a pixel, one layer, one mip level; usage `VK_IMAGE_USAGE_SAMPLED_BIT`.
+    /// One sample a pixel, one mip level; usage `VK_IMAGE_USAGE_SAMPLED_BIT`.
     pub image: vk::Image,
-    /// A view of its depth alone.
+    /// A view of its depth alone, of one layer.
     pub view: vk::ImageView,
     /// What was done with it just before; its writes are waited for.
     pub before_stages: vk::PipelineStageFlags2,
@@ -45,20 +45,16 @@ pub struct SurfelDepthImage {
     pub width: u32,
     /// Its height in pixels.
     pub height: u32,
-    /// 0; else it is refused.
-    pub reserved: u32,
+    /// The layer that `view` shows: of an image that has one for each eye, say. All else of the image is left as it is.
+    pub layer: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
 unsafe impl Struct for SurfelDepthImage {
     const TYPE: SurfelStructureType = SurfelStructureType::DepthImage;
-
-    fn reserved(&self) -> u32 {
-        self.reserved
-    }
 }
 
-/// An image of the host's that a view is drawn onto: with the samples that its rendering has, one layer, one mip level.
+/// An image of the host's that a view is drawn onto, or one layer of it: with the samples that its rendering has, one mip level.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SurfelHostImage {
@@ -70,7 +66,7 @@ pub struct SurfelHostImage {
     pub p_next: *const c_void,
     /// The image.
     pub image: vk::Image,
-    /// A view of all of it.
+    /// A view of all of it, or of the layer.
     pub view: vk::ImageView,
     /// What was done with it just before; that is waited for.
     pub before_stages: vk::PipelineStageFlags2,
@@ -101,17 +97,13 @@ pub struct SurfelHostImage {
     /// The family that it is released to, from that layout to `afterLayout`, which acquires it then.
     /// `VK_QUEUE_FAMILY_IGNORED`: it stays with ours.
     pub family_after: u32,
-    /// 0; else it is refused.
-    pub reserved: u32,
+    /// The layer that `view` shows: of an image that has one for each eye, say. All else of the image is left as it is.
+    pub layer: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
 unsafe impl Struct for SurfelHostImage {
     const TYPE: SurfelStructureType = SurfelStructureType::HostImage;
-
-    fn reserved(&self) -> u32 {
-        self.reserved
-    }
 }
 
 /// The image that C means; `None` of NULL.
@@ -135,6 +127,7 @@ pub unsafe fn host_image(given: *const SurfelHostImage, name: &str) -> Result<Op
         format: given.format,
         extent: vk::Extent2D { width: given.width, height: given.height },
         usage: given.usage,
+        layer: given.layer,
         family_before: family(given.family_before),
         family_after: family(given.family_after),
         before: state(given.before_stages, given.before_access, given.before_layout),
@@ -153,6 +146,7 @@ pub fn depth_image(given: &SurfelDepthImage) -> Result<DepthImage> {
         view: given.view,
         format: given.format,
         extent: vk::Extent2D { width: given.width, height: given.height },
+        layer: given.layer,
         before: state(given.before_stages, given.before_access, given.before_layout),
         after: state(given.after_stages, given.after_access, given.after_layout),
     })

@@ -34,7 +34,7 @@ pub const SURFEL_FEATURE_LARGE_POINTS: u64 = 16;
 pub const SURFEL_FEATURE_DRAW_INDIRECT_FIRST_INSTANCE: u64 = 32;
 /// `drawIndirectCount`; without it all layers of `layers` `auto` are drawn, the empty ones too.
 pub const SURFEL_FEATURE_DRAW_INDIRECT_COUNT: u64 = 64;
-/// `pipelineStatisticsQuery`; no function of this header needs it.
+/// `pipelineStatisticsQuery`; without it `SURFEL_MEASURE_COUNTS` counts nothing.
 pub const SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY: u64 = 128;
 /// `independentBlend`; without it a view is drawn within renderings of one color attachment only.
 pub const SURFEL_FEATURE_INDEPENDENT_BLEND: u64 = 256;

@@ -121,8 +121,8 @@ pub unsafe extern "C" fn surfel_view_create(
 }
 
 /// Records the passes of a frame: all but its draws. `commands` must be recording, outside of rendering, without an active query, and be
-/// submitted to the device's queue. The frame prepared before in this view must have finished. View and scenes must not be destroyed before
-/// the submission, and the images of `hides` not before it has finished.
+/// submitted to the device's queue, after those of the frame prepared before in this view, whose draws are recorded before: what the host writes for a frame is kept apart until
+/// its epoch is done. View and scenes must not be destroyed before the submission, and the images of `hides` not before it has finished.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_view_prepare(
     view: *mut SurfelView,
@@ -141,9 +141,9 @@ pub unsafe extern "C" fn surfel_view_prepare(
     })
 }
 
-/// Records the draws of the frame that was prepared: one to three triangles. `commands` are those of `surfel_view_prepare`, or others that
+/// Records the draws of the frame that was prepared: up to three triangles. `commands` are those of `surfel_view_prepare`, or others that
 /// are submitted after them to the same queue; they are inside of a rendering as the view was made for, which covers the view's area.
-/// Clobbers the pipeline, viewport and scissor, and of the graphics bind point all sets and push constants.
+/// Clobbers viewport and scissor, and of the graphics bind point the pipeline, all sets and push constants.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_view_draw(
     view: *const SurfelView,

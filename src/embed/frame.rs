@@ -65,14 +65,16 @@ impl<'a> ViewFrame<'a> {
 /// The depth of what a host has drawn so far.
 #[derive(Clone, Copy, Debug)]
 pub struct DepthImage {
-    /// The image: one sample a pixel, one layer, one mip level; usage `SAMPLED`.
+    /// The image: one sample a pixel, one mip level; usage `SAMPLED`.
     pub image: vk::Image,
-    /// A view of its depth alone.
+    /// A view of its depth alone, of one layer.
     pub view: vk::ImageView,
     /// Its format.
     pub format: vk::Format,
     /// Width and height in pixels.
     pub extent: vk::Extent2D,
+    /// The layer that the view shows: of an image that has one for each eye, say. All else of the image is left as it is.
+    pub layer: u32,
     /// What was done with it just before: its writes are waited for.
     pub before: ImageState,
     /// What will be done with it just after; it is left in that layout.

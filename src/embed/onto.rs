@@ -12,7 +12,7 @@ use crate::{
     renderer::Renderer,
 };
 
-/// An image of a host's that a view is drawn onto: with the samples that its rendering has, one layer, one mip level.
+/// An image of a host's that a view is drawn onto, or one layer of it: with the samples that its rendering has, one mip level.
 ///
 /// ```no_run
 /// use surfel::{ash::vk, embed::{HostImage, ImageState}};
@@ -30,7 +30,7 @@ use crate::{
 pub struct HostImage {
     /// The image.
     pub image: vk::Image,
-    /// A view of all of it.
+    /// A view of all of it, or of the layer.
     pub view: vk::ImageView,
     /// Its format, which is the rendering's: another one is refused. `UNDEFINED` is not looked at.
     pub format: vk::Format,
@@ -38,6 +38,8 @@ pub struct HostImage {
     pub extent: vk::Extent2D,
     /// What it was created for: without `COLOR_ATTACHMENT` or `DEPTH_STENCIL_ATTACHMENT` it is refused. Nothing is not looked at.
     pub usage: vk::ImageUsageFlags,
+    /// The layer that the view shows: of an image that has one for each eye, say. All else of the image is left as it is.
+    pub layer: u32,
     /// What was done with it just before: that is waited for. Where the layout is `UNDEFINED` nothing is in it: it is cleared, color to 0, depth to what is farthest.
     pub before: ImageState,
     /// The family of queues that has it before, where it is not shared: it is acquired from there, in the layout of `before`. That family's queue has released it to ours, to the layout of
@@ -50,7 +52,7 @@ pub struct HostImage {
 }
 
 impl HostImage {
-    /// An image of colors that was, and will be, drawn to by a pass of the host's, and stays with the queue's family.
+    /// An image of one layer, of colors, that was, and will be, drawn to by a pass of the host's, and stays with the queue's family.
     pub fn color(image: vk::Image, view: vk::ImageView, format: vk::Format, extent: vk::Extent2D) -> Self {
         Self {
             image,
@@ -58,6 +60,7 @@ impl HostImage {
             format,
             extent,
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT,
+            layer: 0,
             before: ImageState::COLOR_ATTACHMENT,
             family_before: vk::QUEUE_FAMILY_IGNORED,
             after: ImageState::COLOR_ATTACHMENT,
@@ -127,7 +130,11 @@ impl HostImage {
         [from, to]: [ImageState; 2],
         [family_from, family_to]: [u32; 2],
     ) -> vk::ImageMemoryBarrier2<'static> {
-        let range = vk::ImageSubresourceRange::default().aspect_mask(aspect).level_count(1).layer_count(1);
+        let range = vk::ImageSubresourceRange::default()
+            .aspect_mask(aspect)
+            .level_count(1)
+            .base_array_layer(self.layer)
+            .layer_count(1);
         vk::ImageMemoryBarrier2::default()
             .src_stage_mask(from.stages)
             .src_access_mask(from.access)

@@ -211,10 +211,10 @@ impl View {
         let mut layers = images.layers.map(|image| import("layers for a host", image));
         let mut objects = images.objects.map(|image| import("objects for a host", image));
         let hides = frame.hides.filter(|_| layered).map(|hides| {
-            let DepthImage { image, view, format, extent, before, after } = hides;
+            let DepthImage { image, view, format, extent, layer, before, after } = hides;
             let handle =
                 graph.import_image("depth of the host", ImageDesc { format, extent }, before, Some(after));
-            imports.push((handle.id(), Physical::Image(image, view)));
+            imports.push((handle.id(), Physical::Layer(image, view, layer)));
             handle
         });
         let beside = BesideHost {

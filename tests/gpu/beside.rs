@@ -9,6 +9,7 @@ mod conventions;
 mod depth_alone;
 mod faults;
 mod late;
+mod layers;
 mod memory;
 mod mirrors;
 mod objects;
@@ -169,6 +170,7 @@ impl Beside {
             view: depth.view,
             format: self.engine.style.depth_format,
             extent: vk::Extent2D { width, height },
+            layer: 0,
             before: written,
             after: written,
         }

@@ -214,8 +214,8 @@ void steady(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     wrong.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     wrong.width = WIDTH - 1;
     IS(OPTION, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "colors[0].extent: 639x480: expected 640x480 pixels from 0,0 on");
-    wrong.reserved = 1;
-    IS(NEWER_STRUCT, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "reserved is 1");
+    wrong.sType = SURFEL_STRUCTURE_TYPE_FRAME;
+    IS(UNKNOWN_STRUCT, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "sType 9: expected 11 (HostImage)");
     wrong = color;
     wrong.view = VK_NULL_HANDLE;
     IS(INVALID_ARGUMENT, surfel_view_record(view, engine->commands, &frame, colors, 1, &depth), "a color: image or view is NULL");

@@ -87,8 +87,10 @@ impl PassContext<'_> {
     pub fn descriptor(&self, id: ResourceId) -> Result<Descriptor> {
         let (Binding { layout, texels, .. }, object) = self.declared(id)?;
         Ok(match (object, self.recorder.plan.resource(id).desc) {
-            (Physical::Image(_, view), _) if layout == vk::ImageLayout::GENERAL => Descriptor::Storage(view),
-            (Physical::Image(_, view), _) => Descriptor::Sampled(view, layout),
+            (Physical::Image(_, view) | Physical::Layer(_, view, _), _) => match layout {
+                vk::ImageLayout::GENERAL => Descriptor::Storage(view),
+                _ => Descriptor::Sampled(view, layout),
+            },
             (Physical::TexelBuffer(_, view), _) if texels => Descriptor::Texels(view),
             (Physical::Buffer(buffer) | Physical::TexelBuffer(buffer, _), ResourceDesc::Buffer(desc)) => {
                 Descriptor::Buffer(buffer, desc.size_bytes)
@@ -103,7 +105,9 @@ impl PassContext<'_> {
     /// [`ErrorKind::Graph`] for one that it did not declare.
     pub fn image(&self, id: ResourceId) -> Result<(vk::Image, vk::ImageView)> {
         match self.declared(id)?.1 {
+            // Who copies from an image takes its first layer, which of another one it would not be.
             Physical::Image(image, view) => Ok((image, view)),
+            Physical::Layer(..) => Err(self.refuse(id, "is a layer of an image, not all of one")),
             Physical::Buffer(_) | Physical::TexelBuffer(..) => {
                 Err(self.refuse(id, "is a buffer, not an image"))
             }
@@ -117,7 +121,7 @@ impl PassContext<'_> {
     pub fn buffer(&self, id: ResourceId) -> Result<vk::Buffer> {
         match self.declared(id)?.1 {
             Physical::Buffer(buffer) | Physical::TexelBuffer(buffer, _) => Ok(buffer),
-            Physical::Image(..) => Err(self.refuse(id, "is an image, not a buffer")),
+            Physical::Image(..) | Physical::Layer(..) => Err(self.refuse(id, "is an image, not a buffer")),
         }
     }
 

@@ -32,6 +32,8 @@ use crate::{
 pub enum Physical {
     /// An image and the view of all of it.
     Image(vk::Image, vk::ImageView),
+    /// One layer of an image that has others, by its number, and the view of that one.
+    Layer(vk::Image, vk::ImageView, u32),
     /// A buffer.
     Buffer(vk::Buffer),
     /// A buffer, and the view of all of its texels.
@@ -122,11 +124,11 @@ pub unsafe fn execute(
 fn check_objects(plan: &Plan, physical: &[Option<Physical>]) -> Result<()> {
     for (resource, object) in plan.resources.iter().zip(physical) {
         let reason = match (object, resource.desc) {
-            (Some(Physical::Image(..)), ResourceDesc::Image(_))
+            (Some(Physical::Image(..) | Physical::Layer(..)), ResourceDesc::Image(_))
             | (Some(Physical::Buffer(_) | Physical::TexelBuffer(..)), ResourceDesc::Buffer(_)) => continue,
             (None, _) if resource.lifetime.is_none() => continue,
             (None, _) => "has no Vulkan object: an import was not given",
-            (Some(Physical::Image(..)), ResourceDesc::Buffer(_)) => "is a buffer, and an image was given",
+            (Some(_), ResourceDesc::Buffer(_)) => "is a buffer, and an image was given",
             (Some(_), ResourceDesc::Image(_)) => "is an image, and a buffer was given",
         };
         let (pass, resource) = (String::new(), resource.name.clone());

@@ -48,7 +48,8 @@ impl Recorder<'_> {
         let (mut images, mut buffers) = (self.arena.growing(), self.arena.growing());
         for barrier in resources {
             match self.object(barrier.resource)? {
-                Physical::Image(image, _) => images.push(self.image_barrier(barrier, image)),
+                Physical::Image(image, _) => images.push(self.image_barrier(barrier, image, 0)),
+                Physical::Layer(image, _, layer) => images.push(self.image_barrier(barrier, image, layer)),
                 Physical::Buffer(buffer) | Physical::TexelBuffer(buffer, _) => {
                     buffers.push(buffer_barrier(barrier.src, barrier.dst, buffer));
                 }
@@ -93,7 +94,8 @@ impl Recorder<'_> {
     }
 
     fn attachment(&self, attachment: &Attachment) -> Result<vk::RenderingAttachmentInfo<'static>> {
-        let Physical::Image(_, view) = self.object(attachment.resource)? else {
+        let (Physical::Image(_, view) | Physical::Layer(_, view, _)) = self.object(attachment.resource)?
+        else {
             return Err(self.refuse(attachment.resource, "is a buffer and can't be an attachment"));
         };
         Ok(vk::RenderingAttachmentInfo::default()
@@ -104,12 +106,21 @@ impl Recorder<'_> {
             .clear_value(attachment.clear.map(Into::into).unwrap_or_default()))
     }
 
-    fn image_barrier(&self, barrier: &Barrier, image: vk::Image) -> vk::ImageMemoryBarrier2<'static> {
+    fn image_barrier(
+        &self,
+        barrier: &Barrier,
+        image: vk::Image,
+        layer: u32,
+    ) -> vk::ImageMemoryBarrier2<'static> {
         let aspect = match self.plan.resource(barrier.resource).desc {
             ResourceDesc::Image(desc) => aspect_of(desc.format),
             ResourceDesc::Buffer(_) => vk::ImageAspectFlags::empty(),
         };
-        let range = vk::ImageSubresourceRange::default().aspect_mask(aspect).level_count(1).layer_count(1);
+        let range = vk::ImageSubresourceRange::default()
+            .aspect_mask(aspect)
+            .level_count(1)
+            .base_array_layer(layer)
+            .layer_count(1);
         let (old, new) = barrier.transition.map_or_else(Default::default, |t| (t.old, t.new));
         vk::ImageMemoryBarrier2::default()
             .src_stage_mask(barrier.src.stages)
