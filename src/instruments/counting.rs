@@ -44,6 +44,7 @@ impl Counting {
     }
 }
 
+#[cfg(feature = "inside")]
 impl Headless {
     /// How many splats a frame sets up, where it lists those that may be seen, as it does of levels of detail. 0 where it lists none.
     ///

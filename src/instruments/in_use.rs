@@ -20,6 +20,7 @@ use crate::{
     vk::{Buffer, BufferDesc, Device, MemoryUse},
 };
 
+#[cfg(feature = "inside")]
 impl Headless {
     /// What the lists of a frame hold: draws it once, in memory of its own, and reads back the buffers that tell it.
     ///
@@ -79,7 +80,7 @@ pub(super) fn inputs_of<'a>(
     // SAFETY: as above.
     let planes = unsafe { slot.planes(&frame.planes) }?;
     let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
-    let place = Place::Device(renderer.shaders(), descriptors);
+    let place = Place::Device(&renderer.shaders, descriptors);
     let inputs = Inputs { occlusion, range: frame.range, ..Inputs::new(camera, settings, place) };
     let source = inputs.source.cut_by(planes);
     Ok((Inputs { source, ..inputs }, execution))

@@ -20,7 +20,7 @@ impl Renderer {
     ///
     /// # Errors
     /// [`ErrorKind::Option`] for a format that is not one of [`crate::vk::Requirements::color_formats`]; as [`Self::record`].
-    #[cfg_attr(not(feature = "inside"), doc(hidden))]
+    #[cfg(feature = "inside")]
     pub fn make_pipelines(&self, seen: Seen<'_>, format: vk::Format, time: Duration) -> Result<bool> {
         check_color(&self.device, "format", format)?;
         let begun = Instant::now();

@@ -116,7 +116,7 @@ impl Renderer {
     ///
     /// # Errors
     /// As [`Renderer::check`].
-    #[cfg_attr(not(feature = "inside"), doc(hidden))]
+    #[cfg(feature = "inside")]
     pub fn covers_in_part(
         &self,
         scene: &PreparedScene,
@@ -136,7 +136,7 @@ impl Renderer {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`].
-    #[cfg_attr(not(feature = "inside"), doc(hidden))]
+    #[cfg(feature = "inside")]
     pub fn check_levels(&self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<()> {
         let arena = Arena::new();
         let settings = &*passes::within_budget(&arena, &[Placed::at_home(scene)], camera, settings);
@@ -152,7 +152,7 @@ impl Renderer {
     }
 
     /// Explains the frame that was recorded as `plan`.
-    #[cfg_attr(not(feature = "inside"), doc(hidden))]
+    #[cfg(feature = "inside")]
     pub fn explain(
         &self,
         scene: &PreparedScene,

@@ -68,7 +68,7 @@ impl Renderer {
     ///
     /// # Safety
     /// As [`Renderer::record`]; the buffers are as [`Stage`] says, and the host neither reads nor writes them meanwhile.
-    #[cfg_attr(not(feature = "inside"), doc(hidden))]
+    #[cfg(feature = "inside")]
     pub unsafe fn record_stage(
         &self,
         commands: vk::CommandBuffer,

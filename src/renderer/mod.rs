@@ -78,7 +78,7 @@ impl Renderer {
     }
 
     /// Pipelines and their layouts.
-    #[cfg_attr(not(feature = "inside"), doc(hidden))]
+    #[cfg(feature = "inside")]
     pub fn shaders(&self) -> &Shaders {
         &self.shaders
     }
@@ -97,7 +97,7 @@ impl Renderer {
 
     /// Stays within lower limits than the device's own: points, storage buffers and images as on another device, so
     /// that its paths can be tried here. A limit above the device's has no effect.
-    #[cfg_attr(not(feature = "inside"), doc(hidden))]
+    #[cfg(feature = "inside")]
     pub fn lower_limits(&mut self, to: &Limits) {
         let own = self.device.facts().limits;
         self.limits.max_storage_buffer_range = own.max_storage_buffer_range.min(to.max_storage_buffer_range);

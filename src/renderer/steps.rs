@@ -51,7 +51,7 @@ impl Renderer {
     /// # Safety
     /// As [`Renderer::record`]; a step that does not begin with pass 0 begins where the one before ended, which was recorded last in this slot and has finished, of a frame that is the
     /// same in everything: scene, camera, settings, target, and what is read back. Until the last step the target is in no state to be used.
-    #[cfg_attr(not(feature = "inside"), doc(hidden))]
+    #[cfg(feature = "inside")]
     pub unsafe fn record_step(
         &self,
         commands: vk::CommandBuffer,

@@ -7,10 +7,13 @@ mod bounds;
 mod budget;
 mod camera;
 mod camera_parts;
+#[cfg_attr(not(feature = "inside"), allow(dead_code, reason = "a part of it is the program's"))]
 mod camera_view;
+#[cfg_attr(not(feature = "inside"), allow(dead_code, reason = "a part of it is the program's"))]
 mod clip;
 mod clip_planes;
 mod colors;
+#[cfg_attr(not(feature = "inside"), allow(dead_code, reason = "a part of it is the program's"))]
 mod crop;
 mod encoding;
 mod gather;
@@ -27,18 +30,22 @@ mod lod_steps;
 mod mesh;
 mod methods;
 mod opacity;
+#[cfg_attr(not(feature = "inside"), allow(dead_code, reason = "a part of it is the program's"))]
 mod option;
 mod outlines;
+#[cfg_attr(not(feature = "inside"), allow(dead_code, reason = "a part of it is the program's"))]
 mod path;
 mod placement;
 mod points;
 mod refusals;
 mod room;
 mod samples;
+#[cfg_attr(not(feature = "inside"), allow(dead_code, reason = "a part of it is the program's"))]
 mod settings;
 mod splats;
 mod storage;
 mod tile_memory;
+#[cfg_attr(not(feature = "inside"), allow(dead_code, reason = "a part of it is the program's"))]
 mod transform;
 mod values;
 mod window;
@@ -47,11 +54,9 @@ pub use bounds::{Ball, Bounds};
 pub use budget::Budget;
 pub use camera::{Camera, ViewFromWorld};
 pub use camera_parts::{CameraParts, PictureHeight};
-pub use camera_view::{AXES, View, toward_eye};
-pub use clip::{Clip, ClipCurve, ClipTest, Clips};
+pub use clip::{Clip, ClipCurve, Clips};
 pub use clip_planes::{ClipBox, ClipPlanes, MOST_PLANES};
 pub use colors::{Colors, UNKNOWN_SRGB};
-pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};
 pub use host_camera::{DepthOfHost, HostCamera};
 pub use hybrid::{HybridLevels, PolygonCell};
@@ -62,26 +67,46 @@ pub use lod::Lod;
 pub use lod_steps::LodSteps;
 pub use mesh::Mesh;
 pub use methods::{
-    Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
-    Shading, TileInvocations, Transition,
+    Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, Shading,
+    TileInvocations, Transition,
 };
 pub use opacity::Opacity;
 #[cfg(feature = "files")]
 pub(crate) use option::named;
-pub use option::{Choice, OptionTable, OptionValue, Setting};
 pub use outlines::Outlines;
-pub use path::{CameraPath, Interpolation};
 pub use placement::Placement;
 pub use points::{Points, Viewpoint};
 pub use room::Room;
 pub use samples::{MOST_SAMPLES, Samples};
-pub use settings::{Settings, with_each};
+pub use settings::Settings;
 pub use splats::{Defect, DefectCounts, Shapes, Splats};
 pub use storage::{Order, SplatFormat, Storage};
 pub use tile_memory::TileMemory;
-pub use transform::is_invertible;
 pub use values::{Epsilon, Kernel};
-pub use window::{LARGEST_WHOLE_PX, Window};
+pub use window::Window;
+
+/// What the program reads and says, and no host needs: public by the feature `inside` alone.
+macro_rules! inside {
+    ($($path:ident::{$($name:ident),*};)*) => {$(
+        #[cfg(feature = "inside")]
+        pub use $path::{$($name),*};
+        #[cfg(not(feature = "inside"))]
+        #[allow(unused_imports, reason = "a part of it is the program's")]
+        pub(crate) use $path::{$($name),*};
+    )*};
+}
+
+inside! {
+    camera_view::{AXES, View, toward_eye};
+    clip::{ClipTest};
+    crop::{Crop, CropView};
+    methods::{Floors};
+    option::{Choice, OptionTable, OptionValue, Setting};
+    path::{CameraPath, Interpolation};
+    settings::{with_each};
+    transform::{is_invertible};
+    window::{LARGEST_WHOLE_PX};
+}
 
 /// One thing in a scene: splats and how they are to be treated.
 #[derive(Clone, Debug)]

@@ -7,6 +7,7 @@ mod guide;
 mod import_direction;
 mod instructions;
 mod public_items;
+mod public_names;
 mod report;
 mod shaders;
 mod splat_file;

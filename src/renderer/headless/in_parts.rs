@@ -55,6 +55,7 @@ impl Parts {
     }
 }
 
+#[cfg(feature = "inside")]
 impl Headless {
     /// What is seen of a part: near / z of the nearest surface at each pixel, 0 where there is none. Of all parts it is the largest.
     ///
