@@ -270,7 +270,7 @@ mod tests {
 
     #[test]
     fn features_are_flags_and_back() {
-        for bit in 0..8 {
+        for bit in 0..9 {
             let features = features_of(1 << bit);
             assert_eq!(flags_of(&features), 1 << bit);
             let needed = bit < 4;

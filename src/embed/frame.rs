@@ -63,6 +63,17 @@ impl<'a> ViewFrame<'a> {
 }
 
 /// The depth of what a host has drawn so far.
+///
+/// ```no_run
+/// use surfel::{ash::vk, embed::{DepthImage, ImageState, ViewFrame}};
+///
+/// /// The host's opaque pass came just before, and its pass of the rest comes just after, both with `image` as their depth.
+/// fn between<'a>(frame: ViewFrame<'a>, image: vk::Image, view: vk::ImageView, extent: vk::Extent2D) -> ViewFrame<'a> {
+///     let (format, attached) = (vk::Format::D32_SFLOAT, ImageState::DEPTH_ATTACHMENT);
+///     let depth = DepthImage { image, view, format, extent, layer: 0, before: attached, after: attached };
+///     ViewFrame { hides: Some(depth), ..frame }
+/// }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct DepthImage {
     /// The image: one sample a pixel, one mip level; usage `SAMPLED`.

@@ -284,6 +284,7 @@ mod tests {
         fn sent<T: Send>() {}
         shared::<crate::vk::Device>();
         shared::<crate::renderer::Renderer>();
+        shared::<crate::prepare::PreparedScene>();
         sent::<super::View>();
     }
 }

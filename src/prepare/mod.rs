@@ -63,6 +63,18 @@ use crate::{
 };
 
 /// A scene on the device. Chunks have the order of the scene's objects, and their splats that of its [`Storage`].
+///
+/// ```no_run
+/// use surfel::{Scene, ash::vk, embed::{PreparedScene, Renderer}};
+///
+/// /// `commands` are recording, and submitted before any frame that shows the scene.
+/// unsafe fn upload(renderer: &Renderer, commands: vk::CommandBuffer, scene: &Scene) -> surfel::Result<PreparedScene> {
+///     // SAFETY: this function's contract.
+///     let prepared = unsafe { renderer.upload(commands, scene) }?;
+///     println!("{} splats in {} bytes; left out: {}", prepared.splat_count(), prepared.bytes(), prepared.defects.total());
+///     Ok(prepared)
+/// }
+/// ```
 pub struct PreparedScene {
     /// Pieces of objects, each within the device's limits. What is invisible has none.
     pub(crate) chunks: Vec<Chunk>,

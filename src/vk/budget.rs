@@ -41,6 +41,17 @@ pub struct MemoryHeap {
 }
 
 /// The heaps of a device's memory, in Vulkan's order.
+///
+/// ```no_run
+/// use surfel::embed::Device;
+///
+/// /// How many bytes may still be taken of the device's own memory: where the driver does not tell what all have, ours are what is known.
+/// fn left(device: &Device) -> u64 {
+///     let all = device.memory_heaps();
+///     let own = all.heaps().iter().filter(|heap| heap.is_local);
+///     own.map(|heap| heap.budget.saturating_sub(heap.usage.unwrap_or_else(|| device.memory_held()))).sum()
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MemoryHeaps {
     all: [MemoryHeap; vk::MAX_MEMORY_HEAPS],

@@ -22,7 +22,7 @@ use super::{
 };
 use crate::error::{ErrorKind, Result};
 
-/// A logical device; clones share it. See [the module](super) for how things die.
+/// A logical device; clones share it. See [the module](super) for how things die, and [`Device::end_epoch_at`] for an example.
 #[derive(Clone)]
 pub struct Device(pub(super) Arc<Shared>);
 

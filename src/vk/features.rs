@@ -4,6 +4,15 @@ use ash::vk;
 
 /// Features of a device: those that it offers, or those that are enabled on it. The first four are needed; Vulkan 1.3 promises them, but a
 /// device has them only where they were enabled.
+///
+/// ```
+/// use surfel::embed::Features;
+///
+/// // What an engine enables anyway, of a device that it made before.
+/// let enabled = Features { independent_blend: true, synchronization2: false, ..Features::NEEDED };
+/// assert_eq!(enabled.missing(), ["synchronization2"]);
+/// assert_eq!(enabled.core().independent_blend, 1);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Features {
     /// `synchronization2`: needed.

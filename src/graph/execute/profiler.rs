@@ -16,6 +16,22 @@ use crate::{
 const MAX_PASSES: u32 = 2048;
 
 /// What is measured.
+///
+/// ```no_run
+/// use surfel::embed::{Profile, View, ViewFrame};
+///
+/// fn timed(frame: ViewFrame<'_>) -> ViewFrame<'_> {
+///     ViewFrame { profile: Some(Profile::Times), ..frame }
+/// }
+///
+/// /// Once that frame, which was prepared last, has finished.
+/// unsafe fn tell(view: &View) -> surfel::Result<()> {
+///     // SAFETY: this function's contract.
+///     let all = unsafe { view.each_pass(|pass| println!("{}: {:?} s", pass.name, pass.secs)) }?;
+///     println!("{all:?} s in all");
+///     Ok(())
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
     /// The frame's time: one timestamp before its first pass, and one behind its last.

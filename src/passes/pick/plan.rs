@@ -26,6 +26,21 @@ use crate::{
 };
 
 /// What is looked at for a pick.
+///
+/// ```no_run
+/// use surfel::{Settings, ash::vk, embed::{FrameSlot, HostCamera, Picked, PreparedScene, Renderer}};
+///
+/// /// `submit` submits `commands`, waits for them, and gives the bytes of `answer`, a buffer of [`Self::size_bytes`] that may be copied to.
+/// unsafe fn look(
+///     renderer: &Renderer, commands: vk::CommandBuffer, scene: &PreparedScene, camera: &HostCamera, settings: &Settings, answer: vk::Buffer, submit: impl FnOnce() -> Vec<u8>,
+/// ) -> surfel::Result<Option<Picked>> {
+///     let mut slot = FrameSlot::new(renderer.device());
+///     let plan = renderer.plan_pick(scene, &camera.camera(settings.size_px)?.0, settings, [320, 240])?;
+///     // SAFETY: this function's contract; the slot lives until the commands have run.
+///     unsafe { renderer.record_pick(commands, &mut slot, &plan, answer) }?;
+///     Ok(plan.read(&submit()))
+/// }
+/// ```
 pub struct PickPlan<'a> {
     pub(super) draws: Vec<PickedChunk<'a>>,
     pub(super) meshes: Vec<MeshDraw<'a>>,
