@@ -60,6 +60,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     engine.triangle(corners.map(|at| in_clip(at).to_array()), [0.9, 0.4, 0.05, 1.0], camera.flips_y);
     // SAFETY: inside of the rendering that the view was made for.
     unsafe { view.draw(&renderer, engine.commands) }?;
+    // What comes later is hidden by splats.
+    let later = corners.map(|at| in_clip(DVec3::new(-0.8 * at.x, at.y + 0.3, -at.z)).to_array());
+    engine.triangle(later, [0.1, 0.5, 0.3, 1.0], camera.flips_y);
     engine.end_rendering();
     engine.submit();
     let epoch = device.end_epoch();
