@@ -112,7 +112,7 @@ fn balls_and_triangles_cut_each_other_where_the_oracle_says() {
             let expected = expected(&scene, &camera, &settings);
             beside.draw(&scenes, &camera, &settings, &CORNERS, false);
             let (pixels, written) = (beside.engine.pixels(), beside.engine.depths());
-            let (mut of_ball, mut ties, mut exempt, mut worst) = (0, 0, 0, 0.0_f64);
+            let (mut of_ball, mut ties, mut exempt, mut worst, mut worst_steps) = (0, 0, 0, 0.0_f64, 0.0_f64);
             for (i, (color, written)) in pixels.iter().zip(written).enumerate() {
                 let covered = expected.picture.pixels[i].weight > 0.0;
                 let [of_plane, ball] = depths(&expected, i);
@@ -149,13 +149,15 @@ fn balls_and_triangles_cut_each_other_where_the_oracle_says() {
                 worst = worst.max((written - depth).abs() / tolerance);
                 assert!((written - depth).abs() <= tolerance, "{name}, pixel {i}: {written} for {depth}");
                 if shows_ball {
+                    worst_steps =
+                        worst_steps.max((written - depth).abs() / step_of(style.depth_format, depth));
                     let albedo = expected.picture.pixels[i].albedo;
                     let off = (0..3).map(|i| (f64::from(color[i]) - albedo[i]).abs()).fold(0.0, f64::max);
                     assert!(off < 1e-3, "{name}: {color:?} for {albedo:?}");
                 }
             }
             println!(
-                "{name}, {rasterizer:?}: {of_ball} pixels of the ball, {ties} ties, {exempt} exempt, depth within {worst:.2} of the tolerance"
+                "{name}, {rasterizer:?}: {of_ball} pixels of the ball, {ties} ties, {exempt} exempt, depth within {worst:.2} of the tolerance, {worst_steps:.2} steps"
             );
             assert!(of_ball > 1000 && ties <= 20 && 100 * exempt <= of_ball, "{name}");
         }
