@@ -4,6 +4,7 @@
 mod engine;
 
 mod ahead;
+mod allocators;
 mod changing;
 mod conventions;
 mod depth_alone;
@@ -186,6 +187,11 @@ impl Beside {
 
     /// All of ours goes, with nothing left and nothing said.
     fn end(self) {
+        drop(self.leave());
+    }
+
+    /// The same, and the engine goes on.
+    fn leave(self) -> Engine {
         let Self { view, renderer, device, engine, .. } = self;
         drop((view, renderer));
         // SAFETY: nothing is under way.
@@ -193,6 +199,7 @@ impl Beside {
         assert_eq!(device.memory_in_use(), (0, 0));
         drop(device);
         assert_eq!(engine.said(), [] as [String; 0]);
+        engine
     }
 }
 
