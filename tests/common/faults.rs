@@ -23,6 +23,7 @@ thread_local! {
     /// What finds them.
     static FIND: Cell<Option<vk::PFN_vkGetDeviceProcAddr>> = const { Cell::new(None) };
     static CREATE: Cell<Option<vk::PFN_vkCreateDevice>> = const { Cell::new(None) };
+    static DEVICES: Cell<Option<vk::PFN_vkEnumeratePhysicalDevices>> = const { Cell::new(None) };
 }
 
 type Function = unsafe extern "system" fn();
@@ -156,6 +157,7 @@ faulty! {
     end_command_buffer(c: vk::CommandBuffer);
     queue_submit2(q: vk::Queue, n: u32, i: *const vk::SubmitInfo2<'_>, f: vk::Fence);
     queue_wait_idle(q: vk::Queue);
+    get_semaphore_counter_value(d: vk::Device, s: vk::Semaphore, o: *mut u64);
 }
 
 /// Waits until the device is idle, and then for the semaphores, or answers that this failed: layers don't follow timeline semaphores when they look for hazards across
@@ -213,7 +215,7 @@ pub fn device(instance: &ash::Instance, own: &ash::Device) -> ash::Device {
     }
 }
 
-/// The instance, whose devices have functions that fail when [`fail_after`] says so, and are not made then. For this thread, one device at a time.
+/// The instance, whose devices have functions that fail when [`fail_after`] says so, and are neither found nor made then. For this thread, one device at a time.
 pub fn instance(own: &ash::Instance) -> ash::Instance {
     unsafe extern "system" fn find(device: vk::Device, name: *const c_char) -> vk::PFN_vkVoidFunction {
         let own = FIND.get()?;
@@ -234,8 +236,20 @@ pub fn instance(own: &ash::Instance) -> ash::Instance {
             .get()
             .map_or(vk::Result::ERROR_UNKNOWN, |own| unsafe { own(physical, info, allocator, device) })
     }
+    unsafe extern "system" fn devices(
+        instance: vk::Instance,
+        count: *mut u32,
+        all: *mut vk::PhysicalDevice,
+    ) -> vk::Result {
+        if fails("enumerate_physical_devices") {
+            return ANSWER.get();
+        }
+        // SAFETY: the caller's own contract.
+        DEVICES.get().map_or(vk::Result::ERROR_UNKNOWN, |own| unsafe { own(instance, count, all) })
+    }
     let mut table = own.fp_v1_0().clone();
     FIND.set(Some(std::mem::replace(&mut table.get_device_proc_addr, find)));
     CREATE.set(Some(std::mem::replace(&mut table.create_device, create_device)));
+    DEVICES.set(Some(std::mem::replace(&mut table.enumerate_physical_devices, devices)));
     ash::Instance::from_parts_1_3(own.handle(), table, own.fp_v1_1().clone(), own.fp_v1_3().clone())
 }
