@@ -107,7 +107,7 @@ impl View {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`] for another renderer than the view's, a camera that is none, several samples of a pixel (a host takes them itself, by jittered cameras), something
-    /// transparent beside a host's depth that is not given, 256 frames of the view that may be under way; as [`Renderer::record`].
+    /// transparent beside a host's depth that is not given, 256 frames of the view that may be under way; as [`Renderer::check`], and whatever driver or allocator answer.
     ///
     /// # Safety
     /// `commands` must be recording, outside of rendering, without an active query, and be submitted to the device's queue. Renderer, scenes, view and the depth image must stay alive until it has run. It runs after the frames that were

@@ -190,7 +190,7 @@ impl Headless {
     /// plan and profile those of the last one; the surface is that of one sample in the middle.
     ///
     /// # Errors
-    /// As [`Renderer::record`].
+    /// As [`Renderer::check`], and whatever driver or allocator answer.
     pub fn render(
         &mut self,
         scene: &PreparedScene,
@@ -238,7 +238,7 @@ impl Headless {
             ..SceneFrame::new(Seen { scene, camera, settings }, &target)
         };
         // SAFETY: recording; all that the frame uses is alive until the wait below; the same for the slot.
-        let plan = unsafe { self.renderer.record(commands, &mut self.slot, &frame) }?;
+        let plan = unsafe { self.renderer.record_frame(commands, &mut self.slot, &frame) }?;
         let commands = self.commands.end()?;
         let record_secs = begun.elapsed().as_secs_f64();
         let submitted = Instant::now();

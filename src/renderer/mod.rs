@@ -214,19 +214,11 @@ impl Renderer {
         passes::check_digits(scenes, camera)
     }
 
-    /// Records one frame. Returns the plan that was recorded.
-    ///
-    /// # Errors
-    /// As [`Renderer::check`], and whatever driver or allocator answer.
+    /// Records one frame, as `record` does for who sees what is inside (`scene_frame.rs`).
     ///
     /// # Safety
-    /// `commands` must be a primary command buffer, recording, outside of rendering, without an active occlusion query (and,
-    /// profiled by counts, statistics query), and be submitted to the device's queue. The scene, the
-    /// target, the buffers of `readbacks`, the slot and the renderer must stay alive until it has run; the frame
-    /// recorded before in this slot must have finished. The target is what it says and in its initial state; the host
-    /// may read `readbacks` after its own wait.
-    #[cfg_attr(not(feature = "inside"), doc(hidden))]
-    pub unsafe fn record(
+    /// Its.
+    pub(crate) unsafe fn record_frame(
         &self,
         commands: vk::CommandBuffer,
         slot: &mut FrameSlot,

@@ -44,8 +44,9 @@ impl Renderer {
     /// Whatever driver or allocator answer.
     ///
     /// # Safety
-    /// As [`Renderer::record`], with a slot that is not a frame's; the buffer may be copied to and has [`PickPlan::size_bytes`] of room; the
-    /// host may read it after its own wait.
+    /// `commands` must be recording, outside of rendering, and be submitted to the device's queue. The scene, the buffer, the slot and the renderer must stay alive until
+    /// it has run. The slot is not a frame's, and the pick recorded before in it has finished; the buffer may be copied to and has [`PickPlan::size_bytes`] of room; the host
+    /// may read it after its own wait.
     pub unsafe fn record_pick(
         &self,
         commands: vk::CommandBuffer,

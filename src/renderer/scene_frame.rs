@@ -1,7 +1,14 @@
 //! One frame of a scene: what is seen, and what it is drawn to.
 
+#[cfg(feature = "inside")]
+use std::sync::Arc;
+
 use ash::vk;
 
+#[cfg(feature = "inside")]
+use super::Renderer;
+#[cfg(feature = "inside")]
+use crate::{error::Result, frame::FrameSlot, graph::Plan};
 use crate::{
     frame::Target,
     graph::execute::Profile,
@@ -31,6 +38,30 @@ pub struct SceneFrame<'a> {
     pub readbacks: Readbacks,
     /// Each pass is timed, for [`crate::frame::FrameSlot::profiler`].
     pub profile: Option<Profile>,
+}
+
+#[cfg(feature = "inside")]
+impl Renderer {
+    /// Records one frame. Returns the plan that was recorded.
+    ///
+    /// # Errors
+    /// As [`Renderer::check`], and whatever driver or allocator answer.
+    ///
+    /// # Safety
+    /// `commands` must be a primary command buffer, recording, outside of rendering, without an active occlusion query (and,
+    /// profiled by counts, statistics query), and be submitted to the device's queue. The scene, the
+    /// target, the buffers of `readbacks`, the slot and the renderer must stay alive until it has run; the frame
+    /// recorded before in this slot must have finished. The target is what it says and in its initial state; the host
+    /// may read `readbacks` after its own wait.
+    pub unsafe fn record(
+        &self,
+        commands: vk::CommandBuffer,
+        slot: &mut FrameSlot,
+        frame: &SceneFrame<'_>,
+    ) -> Result<Arc<Plan>> {
+        // SAFETY: this function's contract.
+        unsafe { self.record_frame(commands, slot, frame) }
+    }
 }
 
 impl<'a> SceneFrame<'a> {
