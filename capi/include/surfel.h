@@ -270,6 +270,10 @@ enum SurfelStructureType
    * `SurfelLevels`.
    */
   SURFEL_STRUCTURE_TYPE_LEVELS = 18,
+  /**
+   * `SurfelHybridLevels`.
+   */
+  SURFEL_STRUCTURE_TYPE_HYBRID_LEVELS = 19,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -653,9 +657,9 @@ typedef struct SurfelSceneInfo {
    */
   VkBool32 numbered;
   /**
-   * 0; else it is refused.
+   * No frame asks for an `epsilon` of `auto` of objects that have none of their own: nothing is looked for near their splats at the upload.
    */
-  uint32_t reservedToo;
+  VkBool32 withoutAutoEpsilon;
 } SurfelSceneInfo;
 
 /**
@@ -811,6 +815,14 @@ typedef struct SurfelSplats {
    * Room for splats that come later; NULL: none comes, and none goes. Not for those that `surfel_update` and `surfel_append` are given.
    */
   const struct SurfelRoom *room;
+  /**
+   * Its own epsilon is `auto`, whatever the settings say, and `withoutAutoEpsilon` of the scene; the two numbers are 0 then.
+   */
+  VkBool32 autoEpsilon;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reservedToo;
 } SurfelSplats;
 
 /**
@@ -931,6 +943,79 @@ typedef struct SurfelMesh {
    */
   uint32_t reserved;
 } SurfelMesh;
+
+/**
+ * Triangles that are drawn, or not, together.
+ */
+typedef struct SurfelPolygonCell {
+  /**
+   * How many triangles of the mesh it has, behind those of the cell before it.
+   */
+  uint32_t triangleCount;
+  /**
+   * How many cells it meets at an edge or a corner. Where one of them is drawn as triangles, its own are drawn, too, below its splats.
+   */
+  uint32_t neighborCount;
+  /**
+   * By which it is chosen, from the levels' `origin`, around its triangles and splats, within the balls of the nodes above these. Its spread is above 0, and no more than those nodes'.
+   */
+  struct SurfelErrorBall ball;
+} SurfelPolygonCell;
+
+/**
+ * Levels of detail of a mesh in the scene, by arrays: for a size of the setting `lod` a cell of it is drawn as triangles where its spread is seen larger, elsewhere as its splats, or nodes that stand for them.
+ * A splat is drawn where its parent's spread is seen larger, or it has none, and that of a cell that it is drawn for is not. Frames without `lod` draw the mesh.
+ */
+typedef struct SurfelHybridLevels {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_HYBRID_LEVELS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelHybridLevels)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * The number of the mesh among those that are in the scene. It is opaque, has no such levels yet, and lies cell by cell.
+   */
+  uint64_t mesh;
+  /**
+   * Its splats, opaque, and the nodes above.
+   */
+  const struct SurfelLevels *levels;
+  /**
+   * For how many cells each splat is drawn, at least 1: for that in which it lies; of an edge between cells, for these.
+   */
+  const uint32_t *splatCellCounts;
+  /**
+   * How many numbers `splatCells` has: the sum of those counts.
+   */
+  uint64_t splatCellCount;
+  /**
+   * The numbers of these cells, those of each splat behind those of the splat before it.
+   */
+  const uint32_t *splatCells;
+  /**
+   * How many cells there are.
+   */
+  uint64_t cellCount;
+  /**
+   * The cells. Together they have all triangles of the mesh, without those that can't be drawn, which are not in the scene.
+   */
+  const struct SurfelPolygonCell *cells;
+  /**
+   * How many numbers `neighbors` has: the sum of `neighborCount` of the cells.
+   */
+  uint64_t neighborCount;
+  /**
+   * The numbers of the cells that each meets, those of each cell behind those of the cell before it.
+   */
+  const uint32_t *neighbors;
+} SurfelHybridLevels;
 
 /**
  * What is known of disks that a host writes on the device, by a compute shader or by copies. All of it may be wrong by being too large, at
@@ -1057,6 +1142,30 @@ typedef struct SurfelPreparedSceneInfo {
    * 0.
    */
   uint32_t reserved;
+  /**
+   * Of those left out, each counted once, by the first of these that it has: a coordinate of the center is NaN or infinite.
+   */
+  uint64_t leftOutCenters;
+  /**
+   * The normal is zero, NaN or infinite.
+   */
+  uint64_t leftOutNormals;
+  /**
+   * The radius is zero, negative, NaN or infinite.
+   */
+  uint64_t leftOutRadii;
+  /**
+   * The tangent vectors are zero, collinear, NaN or infinite.
+   */
+  uint64_t leftOutTangents;
+  /**
+   * A component of the color is NaN or infinite.
+   */
+  uint64_t leftOutColors;
+  /**
+   * A value of a clip curve is NaN or infinite, its weight is negative, or the splat is a disk.
+   */
+  uint64_t leftOutClips;
 } SurfelPreparedSceneInfo;
 
 /**
@@ -1610,6 +1719,11 @@ SurfelResult surfel_scene_add_levels(struct SurfelScene *scene,
  * Adds an object of triangles; its arrays are copied. For `surfel_update` it is behind all objects of splats.
  */
 SurfelResult surfel_scene_add_mesh(struct SurfelScene *scene, const struct SurfelMesh *mesh);
+
+/**
+ * Gives a mesh of the scene levels of detail; its arrays are copied.
+ */
+SurfelResult surfel_scene_add_hybrid_levels(struct SurfelScene *scene, const struct SurfelHybridLevels *levels);
 
 /**
  * Makes a scene of splats that the host writes on the device: each time before a frame reads them, with a barrier to

@@ -77,9 +77,11 @@ fn area_of(splats: &Splats, number: usize) -> f64 {
     }
 }
 
+/// Its balls: the nodes', then that above the root.
+///
 /// # Safety
 /// Pointers are NULL or lead to as much as the struct says.
-unsafe fn leveled(given: &SurfelLevels) -> Result<LeveledObject> {
+pub unsafe fn leveled(given: &SurfelLevels) -> Result<LeveledObject> {
     // SAFETY: this function's contract, here and below.
     let (own, nodes) = unsafe { (read(given.splats, "splats")?, read(given.nodes, "nodes")?) };
     // SAFETY: as above.

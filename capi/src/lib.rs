@@ -22,6 +22,8 @@ mod splats;
 mod levels;
 mod mesh;
 
+mod hybrid_levels;
+
 mod dynamic;
 mod renderer;
 mod rooms;

@@ -10,7 +10,7 @@ use surfel::{
     Error,
     ash::vk,
     embed::{PreparedScene, Renderer},
-    scene::Splats,
+    scene::{Defect, Splats},
 };
 
 use crate::{
@@ -182,6 +182,18 @@ pub struct SurfelPreparedSceneInfo {
     pub transparent: vk::Bool32,
     /// 0.
     pub reserved: u32,
+    /// Of those left out, each counted once, by the first of these that it has: a coordinate of the center is NaN or infinite.
+    pub left_out_centers: u64,
+    /// The normal is zero, NaN or infinite.
+    pub left_out_normals: u64,
+    /// The radius is zero, negative, NaN or infinite.
+    pub left_out_radii: u64,
+    /// The tangent vectors are zero, collinear, NaN or infinite.
+    pub left_out_tangents: u64,
+    /// A component of the color is NaN or infinite.
+    pub left_out_colors: u64,
+    /// A value of a clip curve is NaN or infinite, its weight is negative, or the splat is a disk.
+    pub left_out_clips: u64,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -198,6 +210,7 @@ pub unsafe extern "C" fn surfel_prepared_scene_info(
     guard("surfel_prepared_scene_info", || {
         // SAFETY: the contract of the header, here and below.
         let SurfelPreparedScene(scene) = unsafe { get(scene, "scene") }?;
+        let left_out = |defect| scene.defects.of(defect) as u64;
         let filled = SurfelPreparedSceneInfo {
             s_type: 0,
             size: 0,
@@ -209,6 +222,12 @@ pub unsafe extern "C" fn surfel_prepared_scene_info(
             objects: scene.objects.len() as u64,
             transparent: scene.is_transparent().into(),
             reserved: 0,
+            left_out_centers: left_out(Defect::Position),
+            left_out_normals: left_out(Defect::Normal),
+            left_out_radii: left_out(Defect::Radius),
+            left_out_tangents: left_out(Defect::Tangents),
+            left_out_colors: left_out(Defect::Color),
+            left_out_clips: left_out(Defect::Clip),
         };
         // SAFETY: as above.
         unsafe { write(info, "info", &filled) }

@@ -43,8 +43,8 @@ pub struct SurfelSceneInfo {
     pub reserved: u32,
     /// `surfel_pick_read` is to tell numbers of splats and triangles, for which the host keeps 4 bytes of each.
     pub numbered: vk::Bool32,
-    /// 0; else it is refused.
-    pub reserved_too: u32,
+    /// No frame asks for an `epsilon` of `auto` of objects that have none of their own: nothing is looked for near their splats at the upload.
+    pub without_auto_epsilon: vk::Bool32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -52,7 +52,7 @@ unsafe impl Struct for SurfelSceneInfo {
     const TYPE: SurfelStructureType = SurfelStructureType::SceneInfo;
 
     fn reserved(&self) -> u32 {
-        self.reserved | self.reserved_too
+        self.reserved
     }
 }
 
@@ -68,7 +68,9 @@ pub unsafe extern "C" fn surfel_scene_create(
         let mut scene = Scene::default();
         if !info.is_null() {
             // SAFETY: as above.
-            let SurfelSceneInfo { levels, budget, updatable, numbered, .. } = unsafe { read(info, "info") }?;
+            let info = unsafe { read(info, "info") }?;
+            let SurfelSceneInfo { levels, budget, updatable, numbered, without_auto_epsilon, .. } = info;
+            scene.without_auto_epsilon = without_auto_epsilon != vk::FALSE;
             scene.numbered = numbered != vk::FALSE;
             (scene.levels, scene.budget) = (levels != vk::FALSE, budget != vk::FALSE);
             scene.updatable = updatable != vk::FALSE;
@@ -123,7 +125,11 @@ pub unsafe extern "C" fn surfel_scene_add_splats(
         let (scene, splats) = unsafe { (get_mut(scene, "scene")?, read(splats, "splats")?) };
         // SAFETY: the contract of the header.
         let (object, room) = unsafe { (object(&splats)?, room(splats.room)?) };
-        add(&mut scene.0, object, [splats.epsilon, splats.epsilon_in_radii])?;
+        add(
+            &mut scene.0,
+            object,
+            (splats.auto_epsilon != vk::FALSE, [splats.epsilon, splats.epsilon_in_radii]),
+        )?;
         if room.is_some() {
             scene.0.rooms.resize(scene.0.objects.len() - 1, None);
             scene.0.rooms.push(room);
@@ -133,13 +139,17 @@ pub unsafe extern "C" fn surfel_scene_add_splats(
 }
 
 /// `epsilons`: as a length, and in radii.
-fn add(scene: &mut Scene, object: Object, epsilons: [f64; 2]) -> Result<()> {
+fn add(scene: &mut Scene, object: Object, (auto, epsilons): (bool, [f64; 2])) -> Result<()> {
     if let Some(wrong) = epsilons.iter().find(|epsilon| !(**epsilon >= 0.0 && epsilon.is_finite())) {
         let problem = format!("{wrong}: expected a finite number above 0, or 0 for that of the settings");
         return Err(Error::option("epsilon", problem).into());
     }
     let epsilon = match epsilons {
-        [0.0, 0.0] => None,
+        [0.0, 0.0] => auto.then_some(Epsilon::Auto),
+        _ if auto => {
+            let problem = "autoEpsilon, and a number: expected one of both";
+            return Err(Error::option("epsilon", problem).into());
+        }
         [length, 0.0] => Some(Epsilon::Length(length)),
         [0.0, radii] => Some(Epsilon::Radii(radii)),
         [length, radii] => {

@@ -106,6 +106,10 @@ pub struct SurfelSplats {
     pub epsilon_in_radii: f64,
     /// Room for splats that come later; NULL: none comes, and none goes. Not for those that `surfel_update` and `surfel_append` are given.
     pub room: *const SurfelRoom,
+    /// Its own epsilon is `auto`, whatever the settings say, and `withoutAutoEpsilon` of the scene; the two numbers are 0 then.
+    pub auto_epsilon: vk::Bool32,
+    /// 0; else it is refused.
+    pub reserved_too: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -113,7 +117,7 @@ unsafe impl Struct for SurfelSplats {
     const TYPE: SurfelStructureType = SurfelStructureType::Splats;
 
     fn reserved(&self) -> u32 {
-        self.reserved
+        self.reserved | self.reserved_too
     }
 }
 

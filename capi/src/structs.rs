@@ -48,6 +48,8 @@ pub enum SurfelStructureType {
     Picked = 17,
     /// `SurfelLevels`.
     Levels = 18,
+    /// `SurfelHybridLevels`.
+    HybridLevels = 19,
 }
 
 /// No struct is larger in any version: a size beyond is none that a header gave it.

@@ -2,7 +2,7 @@
 
 use std::{ffi::CStr, mem::MaybeUninit, ptr::null_mut};
 
-use surfel::{Scene, ash::vk};
+use surfel::{Scene, ash::vk, scene::Epsilon};
 
 use crate::{
     levels::{SurfelErrorBall, SurfelLevels, surfel_scene_add_levels},
@@ -74,7 +74,7 @@ fn ellipses(count: u64) -> SurfelSplats {
 
 #[test]
 fn scenes_are_made_of_all_that_c_can_give_and_moved_and_measured() {
-    let info = SurfelSceneInfo { updatable: vk::TRUE, ..plain() };
+    let info = SurfelSceneInfo { updatable: vk::TRUE, without_auto_epsilon: vk::TRUE, ..plain() };
     let scene = scene(&info);
     let curve = SurfelClipCurve { start_rad: -1.0, end_rad: 1.0, middle: [0.5, 0.1], weight: 1.0 };
     let clips = [1, 2, 0].map(|curve_count| SurfelClip { curve_count, both: vk::TRUE, curves: [curve; 2] });
@@ -83,7 +83,7 @@ fn scenes_are_made_of_all_that_c_can_give_and_moved_and_measured() {
         SurfelSplats { name: c"disks".as_ptr(), closed: vk::TRUE, room: &room, ..disks() },
         SurfelSplats { color_count: 1, epsilon: 0.5, ..disks() },
         SurfelSplats { clips: clips.as_ptr(), epsilon_in_radii: 2.0, ..ellipses(3) },
-        SurfelSplats { centers: std::ptr::null(), ..ellipses(0) },
+        SurfelSplats { centers: std::ptr::null(), auto_epsilon: vk::TRUE, ..ellipses(0) },
     ];
     let corners = [[0_u32, 1, 2]];
     let mesh = SurfelMesh {
@@ -109,6 +109,9 @@ fn scenes_are_made_of_all_that_c_can_give_and_moved_and_measured() {
         let answer = surfel_scene_ball(scene, center.as_mut_ptr(), &mut radius);
         assert_eq!(answer, SurfelResult::Success, "{}", last());
         let Scene { objects, rooms, epsilons, meshes, .. } = &(*scene).0;
+        assert!((*scene).0.without_auto_epsilon);
+        let lengths = [None, Some(Epsilon::Length(0.5)), Some(Epsilon::Radii(2.0)), Some(Epsilon::Auto)];
+        assert_eq!(*epsilons, lengths);
         assert_eq!([objects.len(), rooms.len(), epsilons.len(), meshes.len()], [4, 1, 4, 1]);
         assert_eq!(objects[0].splats.positions[1].to_array(), [5.0, 8.0, 7.0]);
         assert_eq!(rooms[0].as_ref().map(|room| room.splats), Some(7));
@@ -199,6 +202,8 @@ fn what_can_be_seen_to_be_wrong_is_an_error_and_leaves_the_scene_as_it_was() {
         (SurfelSplats { clips: clips.as_ptr(), ..disks() }, "curveCount is 3"),
         (SurfelSplats { epsilon: -1.0, ..disks() }, "epsilon"),
         (SurfelSplats { reserved: 1, ..disks() }, "reserved is 1"),
+        (SurfelSplats { reserved_too: 1, ..disks() }, "reserved is 1"),
+        (SurfelSplats { auto_epsilon: vk::TRUE, epsilon: 0.5, ..disks() }, "autoEpsilon, and a number"),
     ];
     // SAFETY: a scene that was made; what is given is NULL, not aligned, or as said as far as it is read.
     unsafe {

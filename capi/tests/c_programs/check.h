@@ -55,6 +55,10 @@ void objects(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Levels of detail of the host's own. */
 void levels(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+/* Splats that can't be drawn. */
+void defects(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+/* Levels of detail of triangles. */
+void hybrid(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Triangles, clip curves, a left-handed world, and pipelines one after the other. */
 void shapes(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* All memory is the host's, and what it refuses is an error after which the next frame works. */

@@ -203,6 +203,8 @@ int main(int argc, char **argv) {
         objects(engine, device, renderer);
         rooms(engine, device, renderer);
         levels(engine, device, renderer);
+        hybrid(engine, device, renderer);
+        defects(engine, device, renderer);
         frames(engine, device, renderer, foreign, i == 0);
     }
     surfel_device_destroy(other);
