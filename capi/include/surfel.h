@@ -1726,6 +1726,13 @@ SurfelResult surfel_scene_add_mesh(struct SurfelScene *scene, const struct Surfe
 SurfelResult surfel_scene_add_hybrid_levels(struct SurfelScene *scene, const struct SurfelHybridLevels *levels);
 
 /**
+ * Gives a scene on the device other lights, each by words as `surfel_scene_add_light` has them, at most 16; none: a white one at the eye.
+ * Frames show them that are prepared later; where it had none before, or has none now, they may need other pipelines. `scene` may be one of
+ * `surfel_dynamic_create`. Nothing else may use it meanwhile.
+ */
+SurfelResult surfel_prepared_scene_set_lights(struct SurfelPreparedScene *scene, const char *const *lights, uint32_t count);
+
+/**
  * Makes a scene of splats that the host writes on the device: each time before a frame reads them, with a barrier to
  * `VK_ACCESS_2_SHADER_STORAGE_READ_BIT` of the compute and vertex stages. Nothing is in its buffers yet.
  */

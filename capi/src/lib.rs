@@ -24,6 +24,8 @@ mod mesh;
 
 mod hybrid_levels;
 
+mod lights;
+
 mod dynamic;
 mod renderer;
 mod rooms;

@@ -6,11 +6,12 @@ use surfel::{
     Error, Scene,
     ash::vk,
     glam::{DAffine3, DMat4, DVec4},
-    scene::{Epsilon, Light, MOST_LIGHTS, Object, Splats, is_invertible},
+    scene::{Epsilon, MOST_LIGHTS, Object, Splats, is_invertible},
 };
 
 use crate::{
     handle::{Out, Place, destroy, get, get_mut, text},
+    lights::light as light_of,
     result::{Failure, Result, SurfelResult, guard},
     rooms::room,
     settings::set,
@@ -103,8 +104,7 @@ pub unsafe extern "C" fn surfel_scene_add_light(
 ) -> SurfelResult {
     guard("surfel_scene_add_light", || {
         // SAFETY: the contract of the header.
-        let (scene, light) = unsafe { (get_mut(scene, "scene")?, text(light, "light")?) };
-        let light = Light::parse(light).map_err(|problem| Error::option("light", problem))?;
+        let (scene, light) = unsafe { (get_mut(scene, "scene")?, light_of(light, "light")?) };
         if scene.0.lights.len() >= MOST_LIGHTS {
             let problem = format!("the scene has {MOST_LIGHTS} already, which is the most");
             return Err(Error::option("light", problem).into());

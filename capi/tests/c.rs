@@ -101,9 +101,18 @@ fn wrong_use_has_codes_and_any_order_of_ends_is_sound() {
     fs::write(&garbage, "ply\nformat ascii 1.0\nelement vertex many\n").unwrap();
     // Against the static library, of which the linker takes what is needed.
     let mut cc = cc(&program);
-    let sources =
-        ["refusals.c", "frames.c", "objects.c", "shapes.c", "hybrid.c", "defects.c", "steady.c", "memory.c"]
-            .map(|name| root().join("capi/tests/c_programs").join(name));
+    let sources = [
+        "refusals.c",
+        "frames.c",
+        "objects.c",
+        "shapes.c",
+        "hybrid.c",
+        "defects.c",
+        "lights.c",
+        "steady.c",
+        "memory.c",
+    ]
+    .map(|name| root().join("capi/tests/c_programs").join(name));
     cc.arg(header()).args(sources).arg(engine());
     cc.arg(libraries().join("libsurfel_c.a"));
     // For steady.c, which counts.

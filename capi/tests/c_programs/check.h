@@ -57,6 +57,8 @@ void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 void levels(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Splats that can't be drawn. */
 void defects(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+/* Lights that change. */
+void lights(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Levels of detail of triangles. */
 void hybrid(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Triangles, clip curves, a left-handed world, and pipelines one after the other. */

@@ -205,6 +205,7 @@ int main(int argc, char **argv) {
         levels(engine, device, renderer);
         hybrid(engine, device, renderer);
         defects(engine, device, renderer);
+        lights(engine, device, renderer);
         frames(engine, device, renderer, foreign, i == 0);
     }
     surfel_device_destroy(other);
