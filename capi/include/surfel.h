@@ -1875,6 +1875,16 @@ SurfelResult surfel_view_record(struct SurfelView *view,
                                 const struct SurfelHostImage *depth);
 
 /**
+ * Tells how many bytes of device memory a view holds.
+ */
+SurfelResult surfel_view_bytes(const struct SurfelView *view, uint64_t *bytes);
+
+/**
+ * Destroys a view; NULL is nothing. Its memory is freed when the epoch that is recorded now is done.
+ */
+void surfel_view_destroy(struct SurfelView *view);
+
+/**
  * Tells how long each pass took of the frame that was prepared last, in their order, once it has finished; nothing if it was not `timed`.
  */
 SurfelResult surfel_view_times(const struct SurfelView *view, SurfelPassTime each, void *user);
@@ -1887,16 +1897,6 @@ SurfelResult surfel_view_measured(const struct SurfelView *view,
                                   SurfelPassMeasured each,
                                   void *user,
                                   double *spanSecs);
-
-/**
- * Tells how many bytes of device memory a view holds.
- */
-SurfelResult surfel_view_bytes(const struct SurfelView *view, uint64_t *bytes);
-
-/**
- * Destroys a view; NULL is nothing. Its memory is freed when the epoch that is recorded now is done.
- */
-void surfel_view_destroy(struct SurfelView *view);
 
 /**
  * Tells how many pipelines a renderer has made so far: a frame during which that stays the same has made none.

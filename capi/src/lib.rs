@@ -35,6 +35,8 @@ mod settings;
 mod frame;
 mod view;
 
+mod measured;
+
 mod ahead;
 mod pick;
 
