@@ -1733,6 +1733,16 @@ SurfelResult surfel_scene_add_hybrid_levels(struct SurfelScene *scene, const str
 SurfelResult surfel_prepared_scene_set_lights(struct SurfelPreparedScene *scene, const char *const *lights, uint32_t count);
 
 /**
+ * Tells the name of an object of a scene on the device, by its number as `surfel_pick_read` tells it and `surfel_update` takes it: the file's, or the one that it was given. `length` is how many bytes the name has. Of
+ * these, and a closing zero, at most `capacity` are written to `name`, the last one a zero; `name` may be NULL where `capacity` is 0.
+ */
+SurfelResult surfel_prepared_scene_object_name(const struct SurfelPreparedScene *scene,
+                                               uint64_t object,
+                                               char *name,
+                                               uint64_t capacity,
+                                               uint64_t *length);
+
+/**
  * Makes a scene of splats that the host writes on the device: each time before a frame reads them, with a barrier to
  * `VK_ACCESS_2_SHADER_STORAGE_READ_BIT` of the compute and vertex stages. Nothing is in its buffers yet.
  */

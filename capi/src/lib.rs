@@ -25,6 +25,7 @@ mod mesh;
 mod hybrid_levels;
 
 mod lights;
+mod names;
 
 mod dynamic;
 mod renderer;

@@ -109,6 +109,7 @@ fn wrong_use_has_codes_and_any_order_of_ends_is_sound() {
         "hybrid.c",
         "defects.c",
         "lights.c",
+        "names.c",
         "steady.c",
         "memory.c",
     ]

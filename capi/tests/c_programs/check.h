@@ -59,6 +59,8 @@ void levels(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 void defects(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Lights that change. */
 void lights(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+/* What objects are called. */
+void names(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Levels of detail of triangles. */
 void hybrid(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 /* Triangles, clip curves, a left-handed world, and pipelines one after the other. */

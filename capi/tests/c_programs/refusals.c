@@ -206,6 +206,7 @@ int main(int argc, char **argv) {
         hybrid(engine, device, renderer);
         defects(engine, device, renderer);
         lights(engine, device, renderer);
+        names(engine, device, renderer);
         frames(engine, device, renderer, foreign, i == 0);
     }
     surfel_device_destroy(other);
