@@ -39,6 +39,43 @@ static inline void run_without_drawing(Engine *engine, SurfelDevice *device) {
     OK(surfel_device_epoch_done(device, epoch));
 }
 
+/* Draws a frame behind what is recorded, submits, and waits; the epoch is done then. */
+static inline void draw_behind(Engine *engine, SurfelDevice *device, SurfelView *view, const SurfelFrame *frame) {
+    OK(surfel_view_prepare(view, engine->commands, frame));
+    engine_begin_rendering(engine, 1);
+    OK(surfel_view_draw(view, engine->commands));
+    engine_end_rendering(engine);
+    engine_submit(engine);
+    uint64_t epoch;
+    OK(surfel_device_end_epoch(device, &epoch));
+    OK(surfel_device_epoch_done(device, epoch));
+}
+
+/* The same, of a frame alone. */
+static inline void draw_alone(Engine *engine, SurfelDevice *device, SurfelView *view, const SurfelFrame *frame) {
+    engine_begin(engine);
+    draw_behind(engine, device, view, frame);
+}
+
+/* A view onto the engine's picture and depth. */
+static inline SurfelView *view_of(SurfelRenderer *renderer) {
+    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
+                                       .colorFormats = &format, .colorFormatCount = 1, .depthFormat = VK_FORMAT_D32_SFLOAT};
+    SurfelView *view;
+    OK(surfel_view_create(renderer, &rendering, &view));
+    return view;
+}
+
+/* A frame of one scene, from 4 in front of its middle. */
+static inline SurfelFrame frame_of(const SurfelPreparedScene *const *scene, const SurfelSettings *settings) {
+    const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scene, .sceneCount = 1,
+                               .settings = settings, .width = WIDTH, .height = HEIGHT,
+                               .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1},
+                               .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
+    return frame;
+}
+
 /* A ball of 2000 splats, one of which can't be drawn. */
 SurfelPreparedScene *upload(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, float alpha);
 /* Frames of what is transparent, refused and drawn; then what is given is destroyed, in order, or else in an order of no sense. `foreign` is

@@ -182,14 +182,7 @@ void dynamic(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
             splats.count = COUNT / 2;
             OK(surfel_dynamic_set(ball, &splats));
         }
-        OK(surfel_view_prepare(view, engine->commands, &frame));
-        engine_begin_rendering(engine, 1);
-        OK(surfel_view_draw(view, engine->commands));
-        engine_end_rendering(engine);
-        engine_submit(engine);
-        uint64_t epoch;
-        OK(surfel_device_end_epoch(device, &epoch));
-        OK(surfel_device_epoch_done(device, epoch));
+        draw_behind(engine, device, view, &frame);
         const float *above = engine->pixels + 4 * ((HEIGHT / 2 - 60) * WIDTH + WIDTH / 2), *below = above + 4 * 120 * WIDTH;
         TRUE(above[0] < 0.1f && above[2] > 0.3f);
         TRUE(halves == 2 ? below[0] < 0.1f && below[2] > 0.3f : below[0] == 0.2f);

@@ -5,15 +5,7 @@ enum { SIDE = 40, COUNT = SIDE * SIDE };
 
 /* The color of the middle of the left half, and of the right. */
 static void draw(Engine *engine, SurfelDevice *device, SurfelView *view, const SurfelFrame *frame, const float *of[2]) {
-    engine_begin(engine);
-    OK(surfel_view_prepare(view, engine->commands, frame));
-    engine_begin_rendering(engine, 1);
-    OK(surfel_view_draw(view, engine->commands));
-    engine_end_rendering(engine);
-    engine_submit(engine);
-    uint64_t epoch;
-    OK(surfel_device_end_epoch(device, &epoch));
-    OK(surfel_device_epoch_done(device, epoch));
+    draw_alone(engine, device, view, frame);
     for (int half = 0; half < 2; half++) of[half] = engine->pixels + 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2 + (half ? 1 : -1) * HEIGHT / 8);
 }
 
@@ -78,20 +70,13 @@ void hybrid(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     OK(surfel_upload(renderer, engine->commands, scene, &prepared));
     surfel_scene_destroy(scene);
     run_without_drawing(engine, device);
-    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
-                                       .colorFormats = &format, .colorFormatCount = 1, .depthFormat = VK_FORMAT_D32_SFLOAT};
-    SurfelView *view;
-    OK(surfel_view_create(renderer, &rendering, &view));
+    SurfelView *view = view_of(renderer);
     SurfelSettings *settings;
     OK(surfel_settings_create(&settings));
     OK(surfel_settings_set(settings, "shading", "albedo"));
     OK(surfel_settings_set(settings, "rasterizer", "compute"));
     const SurfelPreparedScene *scenes[] = {prepared};
-    const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes, .sceneCount = 1,
-                               .settings = settings, .width = WIDTH, .height = HEIGHT,
-                               .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1},
-                               .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
+    const SurfelFrame frame = frame_of(scenes, settings);
     /* The spreads of the cells are seen some 6 and 36 pixels large, those of the nodes 60: triangles, then splats on the left alone, on both sides, nodes. */
     const char *lods[] = {"1", "20", "75", "400"};
     const int expected[4][2] = {{1, 1}, {2, 1}, {2, 2}, {0, 0}};

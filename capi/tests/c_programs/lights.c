@@ -3,33 +3,18 @@
 
 /* The blue of the middle of a ball. */
 static float middle(Engine *engine, SurfelDevice *device, SurfelView *view, const SurfelFrame *frame) {
-    engine_begin(engine);
-    OK(surfel_view_prepare(view, engine->commands, frame));
-    engine_begin_rendering(engine, 1);
-    OK(surfel_view_draw(view, engine->commands));
-    engine_end_rendering(engine);
-    engine_submit(engine);
-    uint64_t epoch;
-    OK(surfel_device_end_epoch(device, &epoch));
-    OK(surfel_device_epoch_done(device, epoch));
+    draw_alone(engine, device, view, frame);
     return engine->pixels[4 * (HEIGHT / 2 * WIDTH + WIDTH / 2) + 2];
 }
 
 void lights(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     SurfelPreparedScene *ball = upload(engine, device, renderer, 1);
-    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
-                                       .colorFormats = &format, .colorFormatCount = 1, .depthFormat = VK_FORMAT_D32_SFLOAT};
-    SurfelView *view;
-    OK(surfel_view_create(renderer, &rendering, &view));
+    SurfelView *view = view_of(renderer);
     SurfelSettings *settings;
     OK(surfel_settings_create(&settings));
     OK(surfel_settings_set(settings, "shading", "lambert"));
     const SurfelPreparedScene *scenes[] = {ball};
-    const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes, .sceneCount = 1,
-                               .settings = settings, .width = WIDTH, .height = HEIGHT,
-                               .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1},
-                               .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
+    const SurfelFrame frame = frame_of(scenes, settings);
     /* What is not shone on has a tenth of its color. */
     const float at_eye = middle(engine, device, view, &frame);
     TRUE(at_eye > 0.5f);

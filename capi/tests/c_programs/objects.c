@@ -52,14 +52,7 @@ static void begin(Engine *engine, const Attachment colors[3]) {
 
 /* How many pixels are not of what the engine clears to, of a scene seen from afar. */
 static int seen(Engine *engine, SurfelDevice *device, SurfelView *view, SurfelFrame *frame) {
-    OK(surfel_view_prepare(view, engine->commands, frame));
-    engine_begin_rendering(engine, 1);
-    OK(surfel_view_draw(view, engine->commands));
-    engine_end_rendering(engine);
-    engine_submit(engine);
-    uint64_t epoch;
-    OK(surfel_device_end_epoch(device, &epoch));
-    OK(surfel_device_epoch_done(device, epoch));
+    draw_behind(engine, device, view, frame);
     int count = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) count += memcmp(engine->pixels + 4 * i, engine->pixels, 16) != 0;
     return count;
@@ -94,11 +87,7 @@ void rooms(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     surfel_scene_destroy(scene);
     splats.room = NULL;
 
-    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
-                                       .colorFormats = &format, .colorFormatCount = 1, .depthFormat = VK_FORMAT_D32_SFLOAT};
-    SurfelView *view;
-    OK(surfel_view_create(renderer, &rendering, &view));
+    SurfelView *view = view_of(renderer);
     const SurfelPreparedScene *scenes[] = {prepared};
     SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes, .sceneCount = 1,
                          .width = WIDTH, .height = HEIGHT,
@@ -240,20 +229,13 @@ void levels(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     engine_begin(engine);
     OK(surfel_upload(renderer, engine->commands, scene, &prepared));
     surfel_scene_destroy(scene);
-    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
-                                       .colorFormats = &format, .colorFormatCount = 1, .depthFormat = VK_FORMAT_D32_SFLOAT};
-    SurfelView *view;
-    OK(surfel_view_create(renderer, &rendering, &view));
+    SurfelView *view = view_of(renderer);
     SurfelSettings *settings;
     OK(surfel_settings_create(&settings));
     OK(surfel_settings_set(settings, "shading", "albedo"));
     OK(surfel_settings_set(settings, "rasterizer", "compute"));
     const SurfelPreparedScene *scenes[] = {prepared};
-    SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes, .sceneCount = 1,
-                         .settings = settings, .width = WIDTH, .height = HEIGHT,
-                         .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1},
-                         .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
+    SurfelFrame frame = frame_of(scenes, settings);
     /* The spread is seen some 60 pixels large. */
     const char *lods[] = {"1", "400"};
     for (int i = 0; i < 2; i++) {

@@ -68,18 +68,6 @@ static SurfelPreparedScene *prepared(Engine *engine, SurfelRenderer *renderer, c
     return made;
 }
 
-static void draw(Engine *engine, SurfelDevice *device, SurfelView *view, const SurfelFrame *frame) {
-    engine_begin(engine);
-    OK(surfel_view_prepare(view, engine->commands, frame));
-    engine_begin_rendering(engine, 1);
-    OK(surfel_view_draw(view, engine->commands));
-    engine_end_rendering(engine);
-    engine_submit(engine);
-    uint64_t epoch;
-    OK(surfel_device_end_epoch(device, &epoch));
-    OK(surfel_device_epoch_done(device, epoch));
-}
-
 /* How many pixels have the color of the splats, and that of the mesh. */
 static void count(const Engine *engine, int *of_splats, int *of_triangle) {
     *of_splats = *of_triangle = 0;
@@ -166,7 +154,7 @@ void shapes(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     }
     TRUE(asked > 1);
     frame.mostPipelines = 0;
-    draw(engine, device, view, &frame);
+    draw_alone(engine, device, view, &frame);
     int of_splats, of_triangle;
     count(engine, &of_splats, &of_triangle);
     TRUE(of_splats > 5000 && of_triangle > 5000);
@@ -182,7 +170,7 @@ void shapes(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     engine_begin(engine);
     IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "camera: the picture is a mirror's");
     frame.leftHanded = VK_TRUE;
-    draw(engine, device, view, &frame);
+    draw_alone(engine, device, view, &frame);
     /* But for roundings, as a normal that is turned over is made a unit vector anew. */
     int apart = 0;
     for (int i = 0; i < 4 * WIDTH * HEIGHT; i++) apart += fabsf(expected[i] - engine->pixels[i]) > 1e-3f;
@@ -194,7 +182,7 @@ void shapes(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     frame.viewFromWorld[10] = 1;
     place[14] = -place[14];
     scenes[0] = cut;
-    draw(engine, device, view, &frame);
+    draw_alone(engine, device, view, &frame);
     int of_cut, beside;
     count(engine, &of_cut, &beside);
     TRUE(of_cut > 1000 && of_cut < of_splats && beside > of_triangle);
