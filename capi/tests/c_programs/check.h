@@ -39,6 +39,16 @@ static inline void run_without_drawing(Engine *engine, SurfelDevice *device) {
     OK(surfel_device_epoch_done(device, epoch));
 }
 
+/* Brings a scene to the device, and destroys it; the copies have run then. */
+static inline SurfelPreparedScene *uploaded(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, SurfelScene *scene) {
+    SurfelPreparedScene *prepared;
+    engine_begin(engine);
+    OK(surfel_upload(renderer, engine->commands, scene, &prepared));
+    surfel_scene_destroy(scene);
+    run_without_drawing(engine, device);
+    return prepared;
+}
+
 /* Draws a frame behind what is recorded, submits, and waits; the epoch is done then. */
 static inline void draw_behind(Engine *engine, SurfelDevice *device, SurfelView *view, const SurfelFrame *frame) {
     OK(surfel_view_prepare(view, engine->commands, frame));

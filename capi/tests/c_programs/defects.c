@@ -29,11 +29,7 @@ void defects(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     OK(surfel_scene_create(NULL, &scene));
     OK(surfel_scene_add_splats(scene, &disks));
     OK(surfel_scene_add_splats(scene, &ellipses));
-    SurfelPreparedScene *prepared;
-    engine_begin(engine);
-    OK(surfel_upload(renderer, engine->commands, scene, &prepared));
-    surfel_scene_destroy(scene);
-    run_without_drawing(engine, device);
+    SurfelPreparedScene *prepared = uploaded(engine, device, renderer, scene);
     SurfelPreparedSceneInfo info = {.sType = SURFEL_STRUCTURE_TYPE_PREPARED_SCENE_INFO, .size = sizeof info};
     OK(surfel_prepared_scene_info(prepared, &info));
     TRUE(info.splats == 4 && info.leftOut == 21);

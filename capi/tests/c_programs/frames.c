@@ -20,10 +20,7 @@ SurfelPreparedScene *upload(Engine *engine, SurfelDevice *device, SurfelRenderer
     OK(surfel_scene_add_splats(scene, &splats));
     SurfelPreparedScene *prepared;
     IS(INVALID_ARGUMENT, surfel_upload(renderer, VK_NULL_HANDLE, scene, &prepared), "commands is NULL");
-    engine_begin(engine);
-    OK(surfel_upload(renderer, engine->commands, scene, &prepared));
-    surfel_scene_destroy(scene);
-    run_without_drawing(engine, device);
+    prepared = uploaded(engine, device, renderer, scene);
     SurfelPreparedSceneInfo info = {.sType = SURFEL_STRUCTURE_TYPE_PREPARED_SCENE_INFO, .size = sizeof info};
     OK(surfel_prepared_scene_info(prepared, &info));
     TRUE(info.splats == COUNT - 1 && info.leftOut == 1 && info.triangles == 0 && info.bytes > 32 * info.splats);

@@ -65,11 +65,7 @@ void hybrid(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     cells[0].ball.spread = 0.05f;
     OK(surfel_scene_add_hybrid_levels(scene, &given));
     IS(INVALID_ARGUMENT, surfel_scene_add_hybrid_levels(scene, &given), "mesh 0: it has levels of detail already");
-    SurfelPreparedScene *prepared;
-    engine_begin(engine);
-    OK(surfel_upload(renderer, engine->commands, scene, &prepared));
-    surfel_scene_destroy(scene);
-    run_without_drawing(engine, device);
+    SurfelPreparedScene *prepared = uploaded(engine, device, renderer, scene);
     SurfelView *view = view_of(renderer);
     SurfelSettings *settings;
     OK(surfel_settings_create(&settings));

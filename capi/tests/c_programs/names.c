@@ -13,11 +13,7 @@ void names(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     OK(surfel_scene_add_splats(scene, &splats));
     splats.name = "second";
     OK(surfel_scene_add_splats(scene, &splats));
-    SurfelPreparedScene *prepared;
-    engine_begin(engine);
-    OK(surfel_upload(renderer, engine->commands, scene, &prepared));
-    surfel_scene_destroy(scene);
-    run_without_drawing(engine, device);
+    SurfelPreparedScene *prepared = uploaded(engine, device, renderer, scene);
     uint64_t length = 77;
     char name[8];
     OK(surfel_prepared_scene_object_name(prepared, 1, NULL, 0, &length));
