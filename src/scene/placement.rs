@@ -112,12 +112,10 @@ impl Placement {
 
     /// The same of a camera whose up is neither zero nor parallel to the view.
     pub(crate) fn camera_of_usable_up(&self, camera: &Camera) -> Camera {
-        let back = self.rotation.normalize().conjugate();
-        let to_scene = |point: DVec3| back * (point - self.translation) / self.scale;
         Camera {
-            eye: to_scene(camera.eye),
-            target: to_scene(camera.target),
-            up: back * camera.up,
+            eye: self.eye(camera),
+            target: self.to_scene(camera.target),
+            up: self.rotation.normalize().conjugate() * camera.up,
             near: Some(camera.near() / self.scale),
             orthographic_height: camera.orthographic_height.map(|height| height / self.scale),
             ..*camera
@@ -126,7 +124,11 @@ impl Placement {
 
     /// The eye of that camera, by itself.
     pub(crate) fn eye(&self, camera: &Camera) -> DVec3 {
-        self.rotation.normalize().conjugate() * (camera.eye - self.translation) / self.scale
+        self.to_scene(camera.eye)
+    }
+
+    fn to_scene(&self, point: DVec3) -> DVec3 {
+        self.rotation.normalize().conjugate() * (point - self.translation) / self.scale
     }
 
     /// A plane of the world in the scene's own space: its unit normal, and how far the origin is on the side that the normal points to.

@@ -77,6 +77,15 @@ static inline SurfelView *view_of(SurfelRenderer *renderer) {
     return view;
 }
 
+/* Colors as they are, by tiles. */
+static inline SurfelSettings *albedo_by_tiles(void) {
+    SurfelSettings *settings;
+    OK(surfel_settings_create(&settings));
+    OK(surfel_settings_set(settings, "shading", "albedo"));
+    OK(surfel_settings_set(settings, "rasterizer", "compute"));
+    return settings;
+}
+
 /* A frame of one scene, from 4 in front of its middle. */
 static inline SurfelFrame frame_of(const SurfelPreparedScene *const *scene, const SurfelSettings *settings) {
     const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scene, .sceneCount = 1,

@@ -67,10 +67,7 @@ void hybrid(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     IS(INVALID_ARGUMENT, surfel_scene_add_hybrid_levels(scene, &given), "mesh 0: it has levels of detail already");
     SurfelPreparedScene *prepared = uploaded(engine, device, renderer, scene);
     SurfelView *view = view_of(renderer);
-    SurfelSettings *settings;
-    OK(surfel_settings_create(&settings));
-    OK(surfel_settings_set(settings, "shading", "albedo"));
-    OK(surfel_settings_set(settings, "rasterizer", "compute"));
+    SurfelSettings *settings = albedo_by_tiles();
     const SurfelPreparedScene *scenes[] = {prepared};
     const SurfelFrame frame = frame_of(scenes, settings);
     /* The spreads of the cells are seen some 6 and 36 pixels large, those of the nodes 60: triangles, then splats on the left alone, on both sides, nodes. */

@@ -230,10 +230,7 @@ void levels(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     OK(surfel_upload(renderer, engine->commands, scene, &prepared));
     surfel_scene_destroy(scene);
     SurfelView *view = view_of(renderer);
-    SurfelSettings *settings;
-    OK(surfel_settings_create(&settings));
-    OK(surfel_settings_set(settings, "shading", "albedo"));
-    OK(surfel_settings_set(settings, "rasterizer", "compute"));
+    SurfelSettings *settings = albedo_by_tiles();
     const SurfelPreparedScene *scenes[] = {prepared};
     SurfelFrame frame = frame_of(scenes, settings);
     /* The spread is seen some 60 pixels large. */
