@@ -114,7 +114,7 @@ impl Placement {
     pub(crate) fn camera_of_usable_up(&self, camera: &Camera) -> Camera {
         Camera {
             eye: self.eye(camera),
-            target: self.to_scene(camera.target),
+            target: self.point(camera.target),
             up: self.rotation.normalize().conjugate() * camera.up,
             near: Some(camera.near() / self.scale),
             orthographic_height: camera.orthographic_height.map(|height| height / self.scale),
@@ -124,10 +124,11 @@ impl Placement {
 
     /// The eye of that camera, by itself.
     pub(crate) fn eye(&self, camera: &Camera) -> DVec3 {
-        self.to_scene(camera.eye)
+        self.point(camera.eye)
     }
 
-    fn to_scene(&self, point: DVec3) -> DVec3 {
+    /// A point of the world in the scene's own space.
+    fn point(&self, point: DVec3) -> DVec3 {
         self.rotation.normalize().conjugate() * (point - self.translation) / self.scale
     }
 
