@@ -54,14 +54,15 @@ fn recording_alone_costs_so_much() {
     record(rows);
 }
 
-/// Of small objects, as many: `cargo test --release --test gpu objects_alone -- --ignored --nocapture`.
+/// Of some objects, small and large: `cargo test --release --test gpu objects_alone -- --ignored --nocapture`.
 #[test]
 #[ignore = "a measurement"]
 fn objects_alone_cost_so_much() {
     let mut rows = Vec::new();
     for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
-        let row = |objects| Row { kind: "closed", objects, splats: 1000, size_px: [160, 120], rasterizer };
-        rows.extend([1, 8, 64].map(row));
+        let row =
+            |(objects, splats)| Row { kind: "closed", objects, splats, size_px: [160, 120], rasterizer };
+        rows.extend([(1, 1000), (8, 1000), (64, 1000), (64, 10_000), (64, 30_000), (64, 100_000)].map(row));
     }
     record(rows);
 }
