@@ -152,17 +152,23 @@ pub fn samples_unsaid(settings: &Settings, scene: &Scene, renderer: &Renderer) -
     if can { SMOOTH } else { settings.samples }
 }
 
-/// These settings; or, where splats of a view do not cover pixels in part in one sample, by their method or by their sizes, hard edges in several, which
-/// cover as much.
+/// These settings; or several samples, where one does not show where the splats of a view end: where they do not cover pixels in part, by their method or by
+/// their sizes, with hard edges, which cover as much; and where curves cut them, since at ridges their sums tell too little of what is covered.
 pub fn smoothed(
     settings: Settings,
     (scene, camera): (&PreparedScene, &Camera),
     renderer: &Renderer,
 ) -> Settings {
-    let several = Settings { samples: SMOOTH, edges: Edges::Hard, ..settings.clone() };
-    let covers = || renderer.covers_in_part(scene, camera, &settings).unwrap_or(true);
-    let is_hard = settings.samples.0 == 1 && settings.edges == Edges::Coverage && !covers();
-    if is_hard && renderer.check_settings(&several).is_ok() { several } else { settings }
+    if settings.samples.0 > 1 || settings.edges == Edges::Hard {
+        return settings;
+    }
+    let edges = match renderer.covers_in_part(scene, camera, &settings) {
+        Ok(false) => Edges::Hard,
+        _ if scene.chunks().iter().any(|chunk| chunk.clipped) => Edges::Coverage,
+        _ => return settings,
+    };
+    let several = Settings { samples: SMOOTH, edges, ..settings.clone() };
+    if renderer.check_settings(&several).is_ok() { several } else { settings }
 }
 
 /// What is drawn of a picture.

@@ -7,7 +7,7 @@ use surfel::{
     Error, Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Budget, CameraPath, CropView, Epsilon, Settings, Storage},
+    scene::{Ball, Budget, CameraPath, CropView, Edges, Epsilon, Settings, Storage},
 };
 
 use crate::{
@@ -151,8 +151,10 @@ fn refuse_beside_a_film(arguments: &RenderArguments) -> Result<()> {
     }
 }
 
-/// What `--explain` says of such a picture.
-const SMOOTHED: &str = "8 samples a pixel, with hard edges: in one, splats do not all cover pixels in part so (--samples 1 draws that)";
+/// What `--explain` says of pictures that have several samples for this.
+const HARD: &str = "8 samples a pixel, with hard edges: in one, splats do not all cover pixels in part so (--samples 1 draws that)";
+const CUT: &str =
+    "8 samples a pixel: in one, splats that curves cut leave dots at ridges (--samples 1 draws that)";
 
 fn draw(
     headless: &mut Headless,
@@ -175,14 +177,14 @@ fn draw(
     let drawing::Ready { settings, scene: prepared } =
         drawing::ready(headless, &mut loaded, seen, &arguments.hierarchies, (&mut steps, &bars))?;
     let frames = arguments.frames.or(arguments.timings.is_some().then_some(DEFAULT_TIMED_FRAMES));
-    let edges = settings.edges;
+    let said = settings.samples;
     // What is timed is a frame.
     let settings = &match frames {
         None => picture.smoothed(settings, part, (&prepared, &whole), &headless.renderer),
         Some(_) => settings,
     };
-    if arguments.explain && settings.edges != edges {
-        console::print(SMOOTHED)?;
+    if arguments.explain && settings.samples != said {
+        console::print(if settings.edges == Edges::Hard { HARD } else { CUT })?;
     }
     let Loaded { inputs, ball, scene, .. } = loaded;
     // The device has it all: what the host had is free for what a software driver needs to draw.

@@ -173,3 +173,30 @@ fn up_that_is_told_by_shape_is_kept() {
     let told = done(&folder, &[&["render", "land.ply", "-o", "a.png"][..], &SIZE].concat()).stderr;
     assert!(told.contains("up is +z, because land.ply says so; "), "{told}");
 }
+
+/// In one sample the ridges of what curves cut have dots; a single picture is not worth them, a frame that is timed is what it is.
+#[test]
+fn what_curves_cut_has_several_samples_unless_that_is_asked_for() {
+    let folder = Folder::new();
+    folder.write("disk.obj", obj(&disk()));
+    done(&folder, &["convert", "disk.obj", "cut.ply", "--splats", "128"]);
+    done(&folder, &["convert", "disk.obj", "uncut.ply", "--resample", "900"]);
+    let drawn = |model: &str, words: &[&str]| {
+        done(&folder, &[&["render", model, "-o", "a.png"][..], &SIZE, words].concat());
+        std::fs::read(folder.path("a.png")).unwrap()
+    };
+    let [one, several] = ["1", "8"].map(|samples| drawn("cut.ply", &["--samples", samples]));
+    assert!(drawn("cut.ply", &[]) == several && one != several);
+    let hard = drawn("cut.ply", &["--edges", "hard"]);
+    assert!(hard == drawn("cut.ply", &["--edges", "hard", "--samples", "1"]));
+    assert!(drawn("uncut.ply", &[]) == drawn("uncut.ply", &["--samples", "1"]));
+    let told = |model: &str, words: &[&str]| {
+        let all = [&["render", model, "--explain"][..], &SIZE, words].concat();
+        done(&folder, &all)
+            .stdout
+            .contains("8 samples a pixel: in one, splats that curves cut leave dots at ridges")
+    };
+    let asked_for = [&["--samples", "1"][..], &["--edges", "hard"], &["--frames", "1"]];
+    assert!(told("cut.ply", &[]) && !told("uncut.ply", &[]));
+    assert!(asked_for.iter().all(|words| !told("cut.ply", words)));
+}
