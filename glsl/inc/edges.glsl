@@ -26,6 +26,8 @@
 // opacity is max(A, C), and whole where next to nothing is missing. Own parts of several splats are taken for independent: what they leave
 // uncovered multiplies.
 //
+// Rough surfaces, as scanners measure them with noise, sum to less in places the flatter they are seen: their overlap is taken for less (src/geometry/overlaps.rs).
+//
 // Sharp surfaces are made of ellipses through the corners of triangles, slivers among them: at the corners of a flat side, and at its ridges, where
 // nothing lies beyond, A is a half of its mean, and less. There the curves tell what is covered (inc/clip_image.glsl), so that A may be too much: it is
 // SHARP_SUM times as much, but where the surface ends by turning away or is seen edge-on (tile_project.comp.glsl).

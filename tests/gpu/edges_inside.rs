@@ -7,8 +7,10 @@ use crate::common::{
 };
 use glam::DVec3;
 use surfel::{
+    geometry::splats_from_points,
     load::builtin::relief,
-    scene::{Edges, Object, Rasterizer, Settings},
+    math::random::SplitMix,
+    scene::{Colors, Edges, Object, Points, Rasterizer, Settings},
 };
 
 /// Pixels this far from where the surface ends are inside.
@@ -46,6 +48,19 @@ fn let_through(object: Object, side_px: u32) -> [usize; 2] {
     })
 }
 
+/// A floor as a scanner measures it, at a slant of 17°: points off their plane by up to two fifths of the distances between them.
+fn scanned_floor(points: usize) -> Object {
+    const SIDE: f64 = 2.8;
+    let mut random = SplitMix(5);
+    let mut within = |side: f64| side * (random.unit() - 0.5);
+    let spacing = SIDE / (points as f64).sqrt();
+    let positions =
+        (0..points).map(|_| DVec3::new(within(SIDE), within(0.8 * spacing), within(SIDE))).collect();
+    let colors = Colors::Uniform([0.5, 0.5, 0.5, 1.0]);
+    let (splats, _) = splats_from_points(Points { positions, colors, ..Points::default() }, &());
+    Object { name: "floor".to_owned(), splats, closed: false }
+}
+
 /// The bumps of the built-in relief, slanted, and balls of splats from a part of a pixel to ten large.
 #[test]
 fn what_goes_on_lets_no_light_through() {
@@ -55,6 +70,8 @@ fn what_goes_on_lets_no_light_through() {
         ("relief", relief(20_000), 512),
         ("ball", scenes::sphere(20_000, DVec3::ZERO), 256),
         ("ball", scenes::sphere(1_000, DVec3::ZERO), 512),
+        ("floor", scanned_floor(40_000), 256),
+        ("floor", scanned_floor(40_000), 512),
     ];
     for (name, object, side_px) in objects {
         let splats = object.splats.len();

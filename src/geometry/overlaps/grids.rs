@@ -82,12 +82,12 @@ impl Grids {
         self.cells.len()
     }
 
-    /// What a place on a splat has in sum of weights, each times its factor.
-    pub fn sum_on(&self, splats: &Splats, i: usize, place: DVec3, factor: impl Fn(u32) -> f64) -> f64 {
+    /// What a place on a splat has in sum of weights, each times its factor; and of these times the squared height of the place over the disk's plane.
+    pub fn sums_on(&self, splats: &Splats, i: usize, place: DVec3, factor: impl Fn(u32) -> f64) -> [f64; 2] {
         let octave = octave_of(splats.major_radius(i));
         let mut search = Search::default();
         self.find(splats, octave, cell_of(place, octave), &mut search);
-        sum_at(&search.near, splats, i, place, factor)
+        sums_at(&search.near, splats, i, place, factor)
     }
 
     /// Tells the crowds of the splats of a cell.
@@ -102,7 +102,8 @@ impl Grids {
         self.find(splats, self.octaves[octave].0, self.cells[cell], search);
         for &splat in &self.splats[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
             let i = splat as usize;
-            tell(splat, sum_at(&search.near, splats, i, splats.positions[i], |_| 1.0).max(1.0));
+            let [crowd, _] = sums_at(&search.near, splats, i, splats.positions[i], |_| 1.0);
+            tell(splat, crowd.max(1.0));
         }
     }
 
@@ -172,11 +173,17 @@ impl Search {
     }
 }
 
-/// The sum at a place on splat `of` of the weights of what is near, each times its factor.
-fn sum_at(near: &[Neighbor], splats: &Splats, of: usize, place: DVec3, factor: impl Fn(u32) -> f64) -> f64 {
+/// [`Grids::sums_on`] splat `of`, of what is near.
+fn sums_at(
+    near: &[Neighbor],
+    splats: &Splats,
+    of: usize,
+    place: DVec3,
+    factor: impl Fn(u32) -> f64,
+) -> [f64; 2] {
     let normal = dual_frame(splats, of)[2];
     let least = (LEAST_SIZE * splats.major_radius(of)) as f32;
-    let mut sum = 0.0;
+    let mut sums = [0.0; 2];
     for neighbor in near {
         let from_center = place - neighbor.position;
         let radius = f64::from(neighbor.radius);
@@ -188,10 +195,12 @@ fn sum_at(near: &[Neighbor], splats: &Splats, of: usize, place: DVec3, factor: i
         let uv = DVec2::new(to_u.dot(from_center), to_v.dot(from_center));
         let is_there = uv.length_squared() <= 1.0 && !removes(&splats.clips.get(i), uv);
         if is_there && its_normal.dot(normal) > 0.0 {
-            sum += neighbor.count * factor(neighbor.splat) * (-2.0 * uv.length_squared()).exp();
+            let weight = neighbor.count * factor(neighbor.splat) * (-2.0 * uv.length_squared()).exp();
+            let height = its_normal.dot(from_center);
+            sums = [sums[0] + weight, sums[1] + weight * height * height];
         }
     }
-    sum
+    sums
 }
 
 /// The octave of a radius: that of the least power of two that is not smaller.
