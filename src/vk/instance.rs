@@ -37,11 +37,24 @@ impl Instance {
     /// [`ErrorKind::NoDevice`] without a Vulkan loader or driver, or where validation is asked for and its layer is
     /// not installed.
     pub fn new(validation: Validation) -> Result<Self> {
-        Self::with_extensions(validation, &[])
+        Self::with_extensions(validation, &[], Arc::default())
     }
 
-    /// As [`Instance::new`], with extensions of which it is known that the loader has them.
-    pub(super) fn with_extensions(validation: Validation, wanted: &[&CStr]) -> Result<Self> {
+    /// Another one without a display, watched as this one is: what its layer says is among this one's [`Self::messages`].
+    ///
+    /// # Errors
+    /// As [`Instance::new`].
+    pub fn another(&self) -> Result<Self> {
+        let validation = if self.is_validated() { Validation::On } else { Validation::Off };
+        Self::with_extensions(validation, &[], self.messages())
+    }
+
+    /// As [`Instance::new`], with extensions of which it is known that the loader has them, and messages among these.
+    pub(super) fn with_extensions(
+        validation: Validation,
+        wanted: &[&CStr],
+        messages: Arc<Messages>,
+    ) -> Result<Self> {
         let no_device = |reason: String| ErrorKind::NoDevice { reasons: vec![reason] };
         let (entry, version) = load_entry()?;
         if version < vk::API_VERSION_1_3 {
@@ -70,7 +83,6 @@ impl Instance {
         }
         let through = if watch { Some(Through::of_installed(&entry)?) } else { None };
         extensions.extend(through.map(|through| through.extension().as_ptr()));
-        let messages = Arc::new(Messages::default());
         let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&FEATURES);
         let settings = settings();
         let mut settings = vk::LayerSettingsCreateInfoEXT::default().settings(&settings);

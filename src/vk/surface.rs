@@ -42,7 +42,7 @@ impl Instance {
             .of_call("vkCreateInstance", "surfaces of this display")?;
         // SAFETY: the names are constants of ash, each with a zero byte at its end.
         let names: Vec<&CStr> = names.iter().map(|name| unsafe { CStr::from_ptr(*name) }).collect();
-        Self::with_extensions(validation, &names)
+        Self::with_extensions(validation, &names, Arc::default())
     }
 }
 

@@ -1,5 +1,6 @@
 //! Pictures that nobody sees, drawn by a thread and a device of their own before the window draws with other settings: a driver that compiles a pipeline when it first runs, as those of CPUs do,
-//! holds up its queue for as long as that takes. What it has compiled it keeps on disk, where it finds it for the window's device within milliseconds.
+//! holds up its queue for as long as that takes. What it has compiled it keeps on disk, where it finds it for the window's device within milliseconds. The validation layer watches that device, too,
+//! where it watches the window's.
 
 use std::{
     sync::{
@@ -11,10 +12,10 @@ use std::{
 };
 
 use surfel::{
-    Headless, HeadlessOptions, Result,
+    Headless, Result,
     renderer::Wanted,
     scene::{Camera, Lod, Scene, Settings},
-    vk::Device,
+    vk::{Device, Instance},
 };
 use winit::event_loop::EventLoopProxy;
 
@@ -94,8 +95,12 @@ impl Ahead {
         }
         let (jobs, received) = channel();
         let is_closing = Arc::new(AtomicBool::new(false));
-        let worker =
-            Worker { device: device.facts().name.clone(), proxy, is_closing: Arc::clone(&is_closing) };
+        let worker = Worker {
+            instance: device.instance().clone(),
+            device: device.facts().name.clone(),
+            proxy,
+            is_closing: Arc::clone(&is_closing),
+        };
         let thread = std::thread::spawn(move || worker.run(&received));
         Some(Self { jobs: Some(jobs), thread: Some(thread), is_closing, kinds: Vec::new() })
     }
@@ -124,12 +129,17 @@ impl Ahead {
         let kinds = self.kinds.iter_mut().filter(|(known, _)| known == kind);
         kinds.for_each(|(_, is_done)| *is_done = true);
     }
+
+    /// Nothing more is begun. What is under way is waited for where this is dropped: a driver can't be interrupted while it compiles.
+    pub fn stop(&mut self) {
+        self.is_closing.store(true, Ordering::Release);
+        self.jobs = None;
+    }
 }
 
 impl Drop for Ahead {
     fn drop(&mut self) {
-        self.is_closing.store(true, Ordering::Release);
-        self.jobs = None;
+        self.stop();
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
@@ -138,6 +148,8 @@ impl Drop for Ahead {
 
 /// The thread, as it knows itself.
 struct Worker {
+    /// The window's.
+    instance: Instance,
     /// Its name.
     device: String,
     proxy: EventLoopProxy<News>,
@@ -167,8 +179,8 @@ impl Worker {
 
     /// Mesa writes what it has compiled by a thread of the least priority. An instance waits for that thread where it is destroyed, so that each job has its own.
     fn draw(&self, job: &Job) -> Result<()> {
-        let device = Some(self.device.clone());
-        let mut headless = Headless::new(&HeadlessOptions { device, ..HeadlessOptions::default() })?;
+        let device = Device::new(&self.instance.another()?, Some(&self.device))?;
+        let mut headless = Headless::on(device, None)?;
         let scene = headless.prepare(&job.scene(), &|_, _| {})?;
         let wanted = Wanted { linear: job.is_light, ..Wanted::PICTURE };
         for settings in &job.settings {

@@ -109,20 +109,26 @@ impl<'a> App<'a> {
         Ok(Viewer::new(window, gpu, loader, self.settings.clone(), path, self.arguments))
     }
 
-    /// Ends the program for a reason.
-    fn fail(&mut self, events: &ActiveEventLoop, error: Error) {
-        self.failure = Some(error);
+    /// Ends the program. The window is gone at once, before all that the device does is waited for; it hears nothing any more.
+    fn exit(&mut self, events: &ActiveEventLoop) {
+        if let Some(viewer) = &mut self.viewer {
+            viewer.ends = true;
+            viewer.window.set_visible(false);
+        }
         events.exit();
     }
 
-    fn hand_on(
-        &mut self,
-        events: &ActiveEventLoop,
-        event: impl FnOnce(&mut Viewer, &ActiveEventLoop) -> Result<()>,
-    ) {
-        let Some(viewer) = &mut self.viewer else { return };
-        let done = event(viewer, events);
+    /// Ends it for a reason.
+    fn fail(&mut self, events: &ActiveEventLoop, error: Error) {
+        self.failure = Some(error);
+        self.exit(events);
+    }
+
+    fn hand_on(&mut self, events: &ActiveEventLoop, event: impl FnOnce(&mut Viewer) -> Result<()>) {
+        let Some(viewer) = self.viewer.as_mut().filter(|viewer| !viewer.ends) else { return };
+        let done = event(viewer);
         match done.or_else(|error| viewer.recover(error)) {
+            Ok(()) if viewer.ends => self.exit(events),
             Ok(()) => {}
             Err(error) => self.fail(events, error),
         }
@@ -145,17 +151,11 @@ impl ApplicationHandler<News> for App<'_> {
     }
 
     fn user_event(&mut self, events: &ActiveEventLoop, news: News) {
-        self.hand_on(events, |viewer, _| viewer.hear(news));
+        self.hand_on(events, |viewer| viewer.hear(news));
     }
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        self.hand_on(events, |viewer, events| {
-            viewer.event(event)?;
-            if viewer.ends {
-                events.exit();
-            }
-            Ok(())
-        });
+        self.hand_on(events, |viewer| viewer.event(event));
     }
 
     fn about_to_wait(&mut self, events: &ActiveEventLoop) {

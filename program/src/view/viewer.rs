@@ -233,11 +233,17 @@ impl Viewer {
 
     /// Closes the window; keeps what was compiled.
     pub fn close(mut self) {
+        if let Some(ahead) = &mut self.ahead {
+            ahead.stop();
+        }
         self.finish_writing();
-        let Self { gpu, loader, ahead, prepared, coming, warm, .. } = self;
-        drop((loader, ahead));
+        let Self { window, gpu, loader, ahead, prepared, coming, warm, .. } = self;
+        drop(loader);
         drop((prepared, coming, warm));
         // A lost cache costs the next run some time, that is all.
         let _ = gpu.headless.renderer.shaders().save_cache();
+        // Where a window can't be hidden, as under Wayland, it is gone with this. What the other device compiles is waited for behind it.
+        drop((gpu, window));
+        drop(ahead);
     }
 }

@@ -1,11 +1,13 @@
 /* A Vulkan layer in which calls fail: the file `SURFEL_FAULTS`, once it is there, has words in threes, the name of a function, which of its
  * calls it is, counted from 1 from then on, and the VkResult that this call answers. A device that was lost once stays so. Calls of the function that `SURFEL_COUNTED` names are told. One thread submits and
- * presents, so nothing is locked. */
+ * presents, so nothing is locked.
+ * Calls of a device that can't present, which draws ahead of the window's, do not fail. `SURFEL_ASIDE` has such a device submit late (`slow`), or make a call that is not valid and does nothing (`wrong`). */
 #define VK_NO_PROTOTYPES
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <threads.h>
 #include <vulkan/vulkan.h>
 
 #include <vulkan/vk_layer.h>
@@ -27,6 +29,7 @@ typedef struct {
     PFN_vkGetDeviceProcAddr next;
     VkDevice raw;
     VkQueue queue;
+    bool presents;
     bool lost;
     int swapchains;
 } Device;
@@ -66,6 +69,7 @@ static VkResult fault(const char *function, unsigned *calls) {
 }
 
 static VkResult fault_of(Device *device, const char *function, unsigned *calls) {
+    if (!device->presents) return VK_SUCCESS;
     VkResult answer = device->lost ? VK_ERROR_DEVICE_LOST : fault(function, calls);
     if (answer == VK_ERROR_DEVICE_LOST) device->lost = true;
     return answer;
@@ -76,9 +80,19 @@ static VkResult fault_of(Device *device, const char *function, unsigned *calls) 
     VkResult answer = fault_of(device, __func__, &calls)
 #define NEXT(device, function) ((PFN_##function)(device)->next((device)->raw, #function))
 
+static void submit_aside(Device *device) {
+    const char *how = getenv("SURFEL_ASIDE");
+    if (!how) return;
+    fprintf(stderr, "aside: %s\n", how);
+    if (strcmp(how, "slow") == 0) thrd_sleep(&(struct timespec){.tv_sec = 4}, NULL);
+    /* Of no fence at all. */
+    if (strcmp(how, "wrong") == 0) NEXT(device, vkResetFences)(device->raw, 0, NULL);
+}
+
 static VKAPI_ATTR VkResult VKAPI_CALL vkQueueSubmit2(VkQueue queue, uint32_t count, const VkSubmitInfo2 *infos, VkFence fence) {
     Device *device = device_of(queue);
     FAULT(device);
+    if (!device->presents) submit_aside(device);
     device->queue = queue;
     return answer ? answer : NEXT(device, vkQueueSubmit2)(queue, count, infos, fence);
 }
@@ -195,9 +209,12 @@ static VKAPI_ATTR VkResult VKAPI_CALL vkCreateDevice(VkPhysicalDevice physical, 
     Instance *instance = instance_of(physical);
     VkResult own = ((PFN_vkCreateDevice)instance->next(instance->raw, "vkCreateDevice"))(physical, info, allocator, made);
     if (own) return own;
+    bool presents = false;
+    for (uint32_t i = 0; i < info->enabledExtensionCount; i++)
+        presents |= strcmp(info->ppEnabledExtensionNames[i], VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
     for (int i = 0; i < MOST; i++) {
         if (devices[i].table) continue;
-        devices[i] = (Device){TABLE(*made), next, *made, NULL, false, 0};
+        devices[i] = (Device){.table = TABLE(*made), .next = next, .raw = *made, .presents = presents};
         return VK_SUCCESS;
     }
     abort();

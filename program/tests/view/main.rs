@@ -1,6 +1,7 @@
 //! The window, in a real X server: what it shows is what `surfel render` writes, whatever happens to it, without a word of the validation
 //! layer. Needs Xvfb and xdotool (`third_party/with-deps` installs them) and a Vulkan device that presents to X11, such as lavapipe.
 
+mod aside;
 mod clipboard;
 mod copies;
 mod drag;
