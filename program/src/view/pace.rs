@@ -44,6 +44,10 @@ pub struct Pace {
     whole_secs: f64,
     /// What it would cost by the last frame that moved.
     expected_secs: f64,
+    /// The last frame that moved since then, as if it were as large as all of the picture.
+    moving_secs: Option<f64>,
+    /// What all of the picture cost over that. Much of a frame does not shrink with it, and levels of detail take less.
+    whole_over_moving: Option<f64>,
     /// There was one.
     has_moved: bool,
 }
@@ -105,6 +109,8 @@ impl Pace {
     /// Learns what all of the picture has cost. Where none has moved yet, one that does begins as coarse as that lets expect: no frame of a hand is spent on finding out.
     pub fn learn_whole(&mut self, secs: f64) {
         (self.whole_secs, self.expected_secs) = (secs, secs);
+        let ratio = self.moving_secs.take().map(|moving_secs| secs / moving_secs);
+        self.whole_over_moving = ratio.or(self.whole_over_moving);
         if !self.has_moved {
             let steps = (secs / GOAL_SECS).max(1.0).ln() / STEP_COST.recip().ln();
             self.step = (steps.ceil() as usize).min(STEPS.len() - 1);
@@ -116,7 +122,9 @@ impl Pace {
         self.has_moved = true;
         let (scale, _) = STEPS[self.step];
         if !compiles {
-            self.expected_secs = secs / (scale * scale);
+            let as_large_secs = secs / (scale * scale);
+            self.moving_secs = Some(as_large_secs);
+            self.expected_secs = self.whole_over_moving.unwrap_or(1.0) * as_large_secs;
         }
         if secs > 1.15 * GOAL_SECS && self.step + 1 < STEPS.len() {
             // Several at once where it is far too slow.
@@ -196,6 +204,28 @@ mod tests {
         pace.learn(0.01, false);
         assert!(!pace.waits());
         pace.learn(0.7, false);
+        assert!(pace.waits());
+    }
+
+    /// Most of a picture of a 16th takes as long as of a whole one on a device that others use, too.
+    #[test]
+    fn what_all_of_the_picture_takes_is_expected_by_what_it_took_before() {
+        let mut pace = Pace::default();
+        pace.learn_whole(0.4);
+        let begin = pace.step;
+        while pace.step + 1 < STEPS.len() {
+            pace.learn(0.07, false);
+        }
+        assert!(begin < pace.step && pace.waits(), "by the first one it takes as much as pixels");
+        pace.learn_whole(0.4);
+        pace.learn(0.07, false);
+        assert!(!pace.waits() && pace.rest() == REST);
+        // Into what takes longer, and a picture without one that moves before it.
+        pace.learn(0.2, false);
+        assert!(pace.waits());
+        pace.learn_whole(1.2);
+        pace.learn_whole(0.1);
+        pace.learn(0.2, false);
         assert!(pace.waits());
     }
 
