@@ -2,6 +2,8 @@
 //! holds up its queue for as long as that takes. What it has compiled it keeps on disk, where it finds it for the window's device within milliseconds. The validation layer watches that device, too,
 //! where it watches the window's.
 
+mod kind;
+
 use std::{
     sync::{
         Arc,
@@ -11,70 +13,71 @@ use std::{
     thread::JoinHandle,
 };
 
+use kind::{Known, Of};
 use surfel::{
     Headless, Result,
     renderer::Wanted,
-    scene::{Camera, Lod, Scene, Settings},
+    scene::{Camera, Scene, Settings},
     vk::{Device, Instance},
 };
 use winit::event_loop::EventLoopProxy;
 
+pub use kind::Kind;
+
 use super::{
-    edits::{Edits, part_of},
+    edits::{Edits, some_of},
     told::News,
 };
 
-/// Of a scene with more splats a part is drawn.
-const MOST_SPLATS: usize = 200_000;
+/// Of a scene with more splats so many are drawn: half of them, where the others face away, are more than one dispatch takes of a tile, which is another pipeline's beyond, as of the scene itself. They keep
+/// their size, by which tiles are as high as for all of them.
+const MOST_SPLATS: usize = 600_000;
 
-/// What decides which pipelines a picture has, but for the place of the camera, and for sizes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Kind {
-    settings: Vec<Settings>,
-    is_light: bool,
-    is_parallel: bool,
-    edits: Edits,
-    has_levels: bool,
-    /// Which files they are of, by where their scene is in memory.
-    files: usize,
-}
-
-/// A picture, or several.
+/// Pictures, one after the other.
 pub struct Job {
     pub scene: Arc<Scene>,
     pub edits: Edits,
     /// Levels of detail are made for moving pictures.
     pub has_levels: bool,
-    pub camera: Camera,
-    pub settings: Vec<Settings>,
     pub is_light: bool,
+    /// Those that the window draws next.
+    pub next: Vec<(Camera, Settings)>,
+    /// Those that it may draw soon.
+    pub soon: Vec<(Camera, Settings)>,
+    /// The window does not show the next.
+    pub is_hidden: bool,
 }
 
 impl Job {
-    fn kind(&self) -> Kind {
-        let of = |settings: &Settings| Settings { size_px: [0; 2], lod: Lod::Auto, ..settings.clone() };
-        Kind {
-            settings: self.settings.iter().map(of).collect(),
-            is_light: self.is_light,
-            is_parallel: self.camera.orthographic_height.is_some(),
-            edits: self.edits.clone(),
-            has_levels: self.has_levels,
-            files: Arc::as_ptr(&self.scene).addr(),
+    fn kinds<'a>(&self, pictures: impl Iterator<Item = &'a (Camera, Settings)>) -> Vec<Kind> {
+        let mut kinds: Vec<Kind> = Vec::new();
+        for (camera, settings) in pictures {
+            let of = Of::new((&self.scene, &self.edits, self.has_levels), camera, self.is_light);
+            let kind = Kind { camera: *camera, settings: settings.clone(), of };
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
+            }
         }
+        kinds
     }
 
-    /// All of the scene, or a part of one that is large, with all that decides about pipelines.
+    fn all(&self) -> Vec<Kind> {
+        self.kinds(self.next.iter().chain(&self.soon))
+    }
+
+    /// All of the scene, or some of one that is large, with all that decides about pipelines.
     fn scene(&self) -> Scene {
-        let part = part_of(&self.scene, MOST_SPLATS);
-        let part = Scene {
-            storage: self.scene.storage,
-            budget: self.scene.budget,
-            numbered: self.scene.numbered,
-            hybrids: self.scene.hybrids.clone(),
+        let own = &*self.scene;
+        let some = Scene {
+            storage: own.storage,
+            budget: own.budget,
+            numbered: own.numbered,
+            hybrids: own.hybrids.clone(),
+            without_auto_epsilon: own.without_auto_epsilon,
             levels: self.has_levels,
-            ..part
+            ..some_of(own, MOST_SPLATS).0
         };
-        if self.edits.are_none() { part } else { self.edits.of(&part) }
+        if self.edits.are_none() { some } else { self.edits.of(&some) }
     }
 }
 
@@ -83,8 +86,7 @@ pub struct Ahead {
     jobs: Option<Sender<Job>>,
     thread: Option<JoinHandle<()>>,
     is_closing: Arc<AtomicBool>,
-    /// Those that were asked for since [`Self::begin`] or are not done yet, and whether they are.
-    kinds: Vec<(Kind, bool)>,
+    known: Known,
 }
 
 impl Ahead {
@@ -102,32 +104,35 @@ impl Ahead {
             is_closing: Arc::clone(&is_closing),
         };
         let thread = std::thread::spawn(move || worker.run(&received));
-        Some(Self { jobs: Some(jobs), thread: Some(thread), is_closing, kinds: Vec::new() })
+        Some(Self { jobs: Some(jobs), thread: Some(thread), is_closing, known: Known::default() })
     }
 
-    /// Whether pipelines of such pictures have run, as far as is known; they are drawn, once, where some of them were made just now: `is_new`.
+    /// Whether pipelines of the next pictures have run, as far as is known; they are drawn where some of them were made just now: `is_new`.
     pub fn is_ready(&mut self, job: Job, is_new: bool) -> bool {
-        let kind = job.kind();
-        if let Some((_, is_done)) = self.kinds.iter().find(|(known, _)| *known == kind) {
+        let next = job.kinds(job.next.iter());
+        if self.known.wait(&next, job.is_hidden) {
             // A thread that is gone answers nothing any more.
-            return *is_done || self.thread.as_ref().is_none_or(JoinHandle::is_finished);
+            return self.thread.as_ref().is_none_or(JoinHandle::is_finished);
         }
-        let sent = is_new && self.jobs.as_ref().is_some_and(|jobs| jobs.send(job).is_ok());
+        if !(is_new || self.known.are_left(&next)) || self.known.are_drawn(&next) {
+            return true;
+        }
+        let (all, is_hidden) = (job.all(), job.is_hidden);
+        let sent = self.jobs.as_ref().is_some_and(|jobs| jobs.send(job).is_ok());
         if sent {
-            self.kinds.push((kind, false));
+            self.known.ask(all, is_hidden);
         }
         !sent
     }
 
     /// Other pictures are to be drawn, or the same ones of other sizes, which may have other pipelines.
     pub fn begin(&mut self) {
-        self.kinds.retain(|(_, is_done)| !is_done);
+        self.known.begin();
     }
 
-    /// The thread has drawn them.
-    pub fn is_done(&mut self, kind: &Kind) {
-        let kinds = self.kinds.iter_mut().filter(|(known, _)| known == kind);
-        kinds.for_each(|(_, is_done)| *is_done = true);
+    /// The thread has drawn so many of these, and left the others.
+    pub fn are_done(&mut self, kinds: Vec<Kind>, drawn: usize) {
+        self.known.are_done(kinds, drawn);
     }
 
     /// Nothing more is begun. What is under way is waited for where this is dropped: a driver can't be interrupted while it compiles.
@@ -170,25 +175,31 @@ impl Worker {
                     return;
                 }
                 // What is wrong with it the window tells, which draws it next.
-                let _ = self.draw(&job);
+                let kinds = job.all();
+                let drawn = self.draw(&job, &kinds, || {
+                    waiting.extend(jobs.try_iter());
+                    job.is_hidden && waiting.iter().any(|other| !other.is_hidden)
+                });
+                let drawn = drawn.unwrap_or(kinds.len());
                 // Nobody hears it once the window is closed.
-                let _ = self.proxy.send_event(News::Ran(Box::new(job.kind())));
+                let _ = self.proxy.send_event(News::Ran(kinds, drawn));
             }
         }
     }
 
     /// Mesa writes what it has compiled by a thread of the least priority. An instance waits for that thread where it is destroyed, so that each job has its own.
-    fn draw(&self, job: &Job) -> Result<()> {
+    /// How many pictures are drawn before another job is more urgent, or the window is closed.
+    fn draw(&self, job: &Job, kinds: &[Kind], mut ends: impl FnMut() -> bool) -> Result<usize> {
         let device = Device::new(&self.instance.another()?, Some(&self.device))?;
         let mut headless = Headless::on(device, None)?;
         let scene = headless.prepare(&job.scene(), &|_, _| {})?;
         let wanted = Wanted { linear: job.is_light, ..Wanted::PICTURE };
-        for settings in &job.settings {
-            if self.is_closing.load(Ordering::Acquire) {
-                break;
+        for (drawn, kind) in kinds.iter().enumerate() {
+            if self.is_closing.load(Ordering::Acquire) || ends() {
+                return Ok(drawn);
             }
-            headless.render(&scene, &job.camera, settings, wanted)?;
+            headless.render(&scene, &kind.camera, &kind.settings, wanted)?;
         }
-        Ok(())
+        Ok(kinds.len())
     }
 }

@@ -114,13 +114,22 @@ fn scale(splats: &mut Splats, by: f32) {
 
 /// Some splats of each object, as much larger as they are fewer, so many in all; and all polygons.
 pub fn part_of(scene: &Scene, splats: usize) -> Scene {
-    let step = scene.splat_count().div_ceil(splats).max(1);
+    let (mut part, one_of) = some_of(scene, splats);
+    for object in &mut part.objects {
+        scale(&mut object.splats, one_of.sqrt() as f32);
+    }
+    part
+}
+
+/// The same as large as they are, and that they are one of so many.
+pub fn some_of(scene: &Scene, splats: usize) -> (Scene, f64) {
+    let all = scene.splat_count().max(splats);
     let objects = scene.objects.iter().map(|object| {
-        let mut splats = object.splats.picked((0..object.splats.len()).step_by(step));
-        scale(&mut splats, (step as f32).sqrt());
+        let places = (0..object.splats.len()).map(|place| place * all / splats);
+        let splats = object.splats.picked(places.take_while(|place| *place < object.splats.len()));
         Object { name: object.name.clone(), splats, closed: object.closed }
     });
-    Scene {
+    let some = Scene {
         objects: objects.collect(),
         meshes: scene.meshes.clone(),
         lights: scene.lights.clone(),
@@ -128,7 +137,8 @@ pub fn part_of(scene: &Scene, splats: usize) -> Scene {
         without_auto_epsilon: true,
         leveled: scene.leveled.clone(),
         ..Scene::default()
-    }
+    };
+    (some, all as f64 / splats as f64)
 }
 
 /// The names of a scene's things, in the order of [`Edits`], with what they are in a word or two.
@@ -212,6 +222,25 @@ mod tests {
         ] {
             assert_eq!(with(things).check(&scene, settings).is_ok(), is_drawn, "{things:?}");
         }
+    }
+
+    #[test]
+    fn a_part_has_as_many_splats_as_are_asked_for_and_covers_as_much() {
+        let scene = Scene { objects: (0..7).map(|_| object("a", 1.0)).collect(), ..Scene::default() };
+        let (some, one_of) = some_of(&scene, 10);
+        assert_eq!((some.splat_count(), one_of), (14, 1.4));
+        let shapes = Shapes::Disks { normals: vec![Vec3::Z; 1000], radii: vec![1.0; 1000] };
+        let centers = (0..1000).map(|x| DVec3::X * f64::from(x)).collect();
+        let splats = Splats::new(centers, shapes, Colors::Uniform([1.0; 4]));
+        let scene = Scene { objects: vec![Object { splats, ..object("b", 1.0) }], ..Scene::default() };
+        let (some, part) = (some_of(&scene, 600).0, part_of(&scene, 600));
+        let [some, part] = [some, part].map(|scene| scene.objects.into_iter().next().unwrap().splats);
+        assert_eq!((some.len(), some.major_radius(7)), (600, 1.0));
+        let area = part.len() as f64 * part.major_radius(0).powi(2);
+        assert!((area - 1000.0).abs() < 1.0, "{area}");
+        // All of a scene that has no more.
+        let (all, one_of) = some_of(&scene, 1000);
+        assert_eq!((all.splat_count(), one_of), (1000, 1.0));
     }
 
     #[test]

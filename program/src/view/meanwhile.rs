@@ -8,8 +8,8 @@ use surfel::{
 };
 
 use super::{
-    ahead::Job, document::Document, on_device::OnDevice, picture::Use, steps::Choice, told::Step,
-    viewer::Viewer,
+    ahead::Job, document::Document, edits::Edits, on_device::OnDevice, picture::Use, steps::Choice,
+    told::Step, viewer::Viewer,
 };
 
 /// What was drawn last.
@@ -40,7 +40,14 @@ impl Viewer {
         }
         self.scene_number += 1;
         self.prepared = Some(coming);
+        self.prepared_of = self.newest();
         self.changed();
+    }
+
+    /// Which files are the newest that were read, and what is to be changed of them.
+    fn newest(&self) -> Option<(usize, Edits)> {
+        let document = self.document.as_ref()?;
+        Some((Arc::as_ptr(&document.scene).addr(), self.edits.clone()))
     }
 
     /// There may be pipelines to make.
@@ -77,29 +84,52 @@ impl Viewer {
         if !are_made {
             self.window.request_redraw();
         }
+        // Another device could draw the scene that comes, but not the one before, which the window goes on with.
+        if coming.is_none() && self.prepared_of != self.newest() {
+            return Ok(are_made);
+        }
+        let pictures = choice.camera.map(|camera| self.next_and_soon(choice, camera, whole));
         // The first picture has nothing to go on with. Pages are another view's when they are there.
-        let (Some(ahead), Some(_), Some(document), Some(OnDevice::Whole(_, step)), Some(camera)) =
-            (&mut self.ahead, &self.drawn, &self.document, prepared, choice.camera)
+        let (Some(ahead), Some(_), Some(document), Some(OnDevice::Whole(_, step)), Some([next, soon])) =
+            (&mut self.ahead, &self.drawn, &self.document, prepared, pictures)
         else {
             return Ok(are_made);
         };
         let Document { scene, .. } = document;
-        let pictures = choice.pictures.iter().map(|(_, settings)| settings);
-        let coarse = self.pace.size_px(whole.size_px);
-        let settings = pictures.flat_map(|settings| {
-            let all = Settings { size_px: whole.size_px, lod: whole.lod, ..settings.clone() };
-            let moving = Settings { size_px: coarse, lod: self.pace.lod(whole.lod), ..settings.clone() };
-            [all, moving]
-        });
         let job = Job {
             scene: Arc::clone(scene),
             edits: self.edits.clone(),
             has_levels: *step == Step::Leveled && !scene.has_levels(),
-            camera,
-            settings: settings.collect(),
             is_light: !self.encoding.is_plain(),
+            next,
+            soon,
+            is_hidden: choice.hidden.is_some(),
         };
         Ok(ahead.is_ready(job, is_new) && are_made)
+    }
+
+    /// The pictures of a choice, and what may be drawn soon after them: all of the picture and a moving one; of those that nobody sees the others that come with them.
+    fn next_and_soon(
+        &self,
+        choice: &Choice,
+        camera: Camera,
+        whole: &Settings,
+    ) -> [Vec<(Camera, Settings)>; 2] {
+        let Choice { pictures, hidden, .. } = choice;
+        let next: Vec<_> = pictures.iter().map(|(_, settings)| (camera, settings.clone())).collect();
+        if let Some(hidden) = hidden {
+            let others =
+                self.hidden_pictures(whole).into_iter().filter(|other| other.what.comes_with(*hidden));
+            return [next, others.map(|other| (other.camera, other.settings)).collect()];
+        }
+        let coarse = self.pace.size_px(whole.size_px);
+        let soon = next.iter().flat_map(|(_, settings)| {
+            let all = Settings { size_px: whole.size_px, lod: whole.lod, ..settings.clone() };
+            let moving = Settings { size_px: coarse, lod: self.pace.lod(whole.lod), ..settings.clone() };
+            [(camera, all), (camera, moving)]
+        });
+        let soon = soon.collect();
+        [next, soon]
     }
 
     /// The picture as it was, of a camera that has moved since; `None` where that can't be drawn, as where it is the camera that takes other pipelines.

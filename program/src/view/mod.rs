@@ -1,6 +1,6 @@
 //! `surfel view`: a scene in a window. One file a part: what keys do (`keys`), how the camera moves (`navigation`), how coarse a moving
 //! picture is (`pace`), the thread that reads files (`loading`, `told`), the window's device (`device`, `gpu` and the files it names; `warm`, `ahead`), what lies over the
-//! picture (`ui`, `panel`, `state`, `popups`, `compared`), and the window itself (`app`, `viewer`, `news`, `redraw`, `steps`, `meanwhile`, `costs`, `refine`, `recover`, `input`, `files`, `changes`, `reasons`, `things`, `picking`, `anchor`, `path`, `capture`).
+//! picture (`ui`, `panel`, `state`, `popups`, `compared`), and the window itself (`app`, `viewer`, `news`, `redraw`, `steps`, `meanwhile`, `costs`, `refine`, `hidden`, `recover`, `input`, `files`, `changes`, `reasons`, `things`, `picking`, `anchor`, `path`, `capture`).
 
 mod ahead;
 mod anchor;
@@ -20,6 +20,7 @@ mod files;
 mod frame;
 mod frame_desc;
 mod gpu;
+mod hidden;
 mod history;
 mod input;
 mod keys;

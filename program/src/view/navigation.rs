@@ -97,6 +97,14 @@ impl Navigation {
         }
     }
 
+    /// The camera at so many times the distance from what is in the middle of the picture.
+    pub fn at_distance(&self, factor: f64, window_px: [u32; 2]) -> Camera {
+        let mut other = self.clone();
+        let middle_px = window_px.map(|side| 0.5 * f64::from(side));
+        other.zoom(factor, (middle_px, Some(self.pivot())), window_px);
+        other.camera
+    }
+
     /// Flies: to the right, up and forward, in radii of the scene.
     pub fn fly(&mut self, [right, up, forward]: [f64; 3]) {
         let axes = self.axes();

@@ -55,9 +55,9 @@ impl Viewer {
                 self.end_saving();
                 Ok(())
             }
-            News::Ran(kind) => {
+            News::Ran(kinds, drawn) => {
                 if let Some(ahead) = &mut self.ahead {
-                    ahead.is_done(&kind);
+                    ahead.are_done(kinds, drawn);
                 }
                 self.window.request_redraw();
                 Ok(())

@@ -16,7 +16,7 @@ const LOOK: Duration = Duration::from_millis(5);
 
 /// Splats up to this size are drawn as one at first: less than the filter spreads what it sees. On lavapipe 1.4 million splats at 1024x1024 take less than half the time
 /// so; at 1 pixel, where most of them are splats of the scene itself, 5 to 15% less.
-const LEVELED_PX: f64 = 1.25;
+pub const LEVELED_PX: f64 = 1.25;
 
 /// A step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,13 +27,6 @@ pub enum Refinement {
     Whole,
     /// One of so many samples, which have such edges.
     Sample(usize, Samples, Edges),
-}
-
-/// A picture that nobody sees: one that moves, of a step of the pace, or [`Refinement::Leveled`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Hidden {
-    Moving(usize),
-    Leveled,
 }
 
 /// The steps of a picture; of one sample that is the whole itself.
@@ -131,23 +124,8 @@ impl Viewer {
         self.refines = goes_on.then(|| Instant::now() + LOOK);
     }
 
-    /// A picture that is to be drawn once and that nobody sees, if one is, so that the first ones of a hand, and the first when it rests, find pipelines that have run: of other sizes of pictures
-    /// and splats tiles have other sizes, and these have pipelines of their own.
-    pub fn next_hidden(&self, whole: &Settings) -> Option<(Hidden, Settings)> {
-        let is_whole = self.prepared.as_ref().is_some_and(|prepared| prepared.pages().is_none());
-        if !is_whole || self.pace.is_finest() || self.comparing.is_some() {
-            return None;
-        }
-        let paces = self.pace.and_next().filter(|pace| !pace.is_finest());
-        let paces = paces.map(|pace| (Hidden::Moving(pace.step()), self.coarse_by(&pace, whole)));
-        let is_leveled = self.has_leveled(whole) && self.pace.is_slow();
-        let leveled = Settings { lod: Lod::Px(LEVELED_PX), ..whole.clone() };
-        let mut all = paces.chain(is_leveled.then_some((Hidden::Leveled, leveled)));
-        all.find(|(hidden, _)| !self.hidden.contains(hidden))
-    }
-
     /// Whether levels of detail may come before all of it.
-    fn has_leveled(&self, whole: &Settings) -> bool {
+    pub fn has_leveled(&self, whole: &Settings) -> bool {
         let has_levels = self.prepared.as_ref().is_some_and(|prepared| prepared.step() == Step::Leveled);
         has_levels && self.settings.lod == Lod::Auto && whole.lod != Lod::Auto && self.comparing.is_none()
     }

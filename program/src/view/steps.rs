@@ -13,8 +13,9 @@ use surfel::{
 
 use super::{
     frame_desc::{Ends, SceneView},
+    hidden::{Hidden, HiddenPicture},
     picture::Use,
-    refine::{Hidden, Refinement},
+    refine::Refinement,
     viewer::Viewer,
     warm,
 };
@@ -106,9 +107,9 @@ impl Viewer {
         }
         let wants = (self.is_stale || is_coarse || refines) && !begins_again;
         if !wants && !is_moving && refinement.is_none() && self.can_refine()? {
-            if let Some((hidden, settings)) = self.next_hidden(whole) {
-                let choice = self.choice_of(vec![(Use::Moving, settings)], camera, "ahead");
-                return Ok(Choice { hidden: Some(hidden), ..choice });
+            if let Some(HiddenPicture { what, camera, settings }) = self.next_hidden(whole) {
+                let choice = self.choice_of(vec![(Use::Moving, settings)], Some(camera), "ahead");
+                return Ok(Choice { hidden: Some(what), ..choice });
             }
             self.refines = None;
         }

@@ -16,8 +16,8 @@ pub enum News {
     Upload(Staging, u64, SyncSender<Result<()>>),
     /// A picture is written, or not.
     Written,
-    /// Pipelines of such pictures have run on another device.
-    Ran(Box<Kind>),
+    /// Pipelines of so many of these pictures have run on another device, the others were left.
+    Ran(Vec<Kind>, usize),
     /// Shaders were compiled anew, so many; or what is wrong with them.
     #[cfg(feature = "live-shaders")]
     Shaders(std::result::Result<usize, String>),

@@ -19,6 +19,7 @@ use super::{
     edits::Edits,
     files::Files,
     gpu::Gpu,
+    hidden::Hidden,
     input::Input,
     keys::Comparing,
     loading::Loader,
@@ -29,7 +30,6 @@ use super::{
     pace::Pace,
     path::Path,
     picture::Use,
-    refine::Hidden,
     steps::Steps,
     tidy::Tidies,
     ui::Ui,
@@ -57,6 +57,8 @@ pub struct Viewer {
     pub document: Option<Document>,
     /// The scene on the device.
     pub prepared: Option<OnDevice>,
+    /// Of which files it is, by where their scene was in memory, and with which changes.
+    pub prepared_of: Option<(usize, Edits)>,
     /// Another one, for which pipelines are made.
     pub coming: Option<OnDevice>,
     /// What is drawn before there is a scene, and not shown.
@@ -166,6 +168,7 @@ impl Viewer {
             reads_first: true,
             document: None,
             prepared: None,
+            prepared_of: None,
             coming: None,
             warm,
             navigation: None,

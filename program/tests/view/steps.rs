@@ -1,9 +1,17 @@
 //! Pipelines that run for the first time: a driver that compiles them then, as lavapipe does where it finds nothing on disk, holds up a step of a picture, not the window.
 
-use std::{fs, io::Write as _, process::Stdio};
+use std::{
+    fs,
+    io::Write as _,
+    process::Stdio,
+    thread,
+    time::{Duration, Instant},
+};
 
 use super::{
     CAMERA,
+    drag::drop_on,
+    faults::open_below,
     rest::cube,
     screen::Screen,
     window::{Folder, View, render, surfel},
@@ -128,6 +136,70 @@ fn pipelines_have_run_before_the_first_file_is_read() {
     view.wait("the picture is told", |view| frames(&view.printed(), printed).contains(&"whole"));
     assert_eq!(frames(&view.printed(), printed)[0], "whole");
     view.end();
+}
+
+/// Nobody sees them, but their pipelines have run by then: those of pictures that move, and from nearer.
+#[test]
+fn what_a_hand_comes_to_has_run_before() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    let words = ["--size", "640x480", "--samples", "1"];
+    let environment = [("MESA_SHADER_CACHE_DISABLE", "true")];
+    let printing = [&words[..], &["--print-frames"]].concat();
+    let mut view = View::open_in(&screen, &folder, &printing, true, &environment);
+    view.wait_for(&render(&folder, &words));
+    // The last is from afar.
+    let hidden = |view: &View<'_>| view.printed().lines().filter(|line| line.starts_with("ahead ")).count();
+    let mut seen = (0, Instant::now());
+    view.wait("pictures that nobody sees are drawn", |view| {
+        let count = hidden(view);
+        if count != seen.0 {
+            seen = (count, Instant::now());
+        }
+        count > 5 && seen.1.elapsed() > Duration::from_secs(8)
+    });
+    let printed = view.printed().len();
+    screen.drive(&["mousemove", "320", "240"]);
+    for _ in 0..16 {
+        screen.drive(&["click", "4"]);
+        thread::sleep(Duration::from_millis(100));
+    }
+    screen.drag([320, 240], [360, 230], 1);
+    let camera = camera(&screen, &mut view);
+    view.wait_for(&render(
+        &folder,
+        &words.into_iter().chain(camera.iter().map(String::as_str)).collect::<Vec<_>>(),
+    ));
+    let since = frames(&view.printed()[printed..], 0).join(" ");
+    view.end();
+    assert!(!since.contains("step"), "{since}");
+}
+
+/// Another device takes seconds for the pipelines of the scene that comes.
+#[test]
+fn a_scene_is_shown_until_there_are_pipelines_for_the_next() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    cube(&folder, "b.obj");
+    let words = |file| [&[file, "--size", "320x240", "--samples", "1"], &CAMERA[..]].concat();
+    let fed = [&words("a.ply")[..], &["--print-frames"]].concat();
+    let mut view = open_below(&screen, &folder, &fed, ("SURFEL_ASIDE", "slow"));
+    view.wait_for(&render(&folder, &words("a.ply")));
+    drop_on(screen.name(), view.number(), &[&folder.path("b.obj")]);
+    view.wait("it is read", |_| !screen.drive(&["search", "--name", "b.obj"]).is_empty());
+    // It is small.
+    thread::sleep(Duration::from_secs(1));
+    let printed = view.printed().len();
+    screen.drag([160, 120], [210, 100], 1);
+    view.wait("a frame is drawn", |view| !frames(&view.printed(), printed).is_empty());
+    let printed = view.printed()[printed..].to_owned();
+    screen.key("h");
+    view.wait_for(&render(&folder, &words("b.obj")));
+    view.end();
+    // The other device has not even uploaded anything by then.
+    let seen =
+        printed.split_once("its end seen ").and_then(|(_, since)| since.split_once(" ms after its input"));
+    let ms: f64 = seen.expect("it answers to the hand").0.parse().unwrap();
+    assert!(ms < 4000.0, "{printed}");
 }
 
 /// A picture of many samples that is larger than the window takes seconds. What is asked for meanwhile is drawn before it is written, and it is the picture that was asked for.

@@ -23,6 +23,22 @@ fn assert_near([x, y]: [f64; 2], expected: [f64; 2]) {
 }
 
 #[test]
+fn a_camera_at_another_distance_looks_at_the_same_and_the_hand_has_its_own() {
+    for parallel in [false, true] {
+        let mut navigation = start();
+        if parallel {
+            navigation.toggle_projection();
+        }
+        let (before, pivot) = (navigation.camera, navigation.pivot());
+        let near = navigation.at_distance(0.25, WINDOW_PX);
+        let of = |camera: &Camera| camera.orthographic_height.unwrap_or(camera.eye.distance(pivot));
+        assert!((of(&near) / of(&before) - 0.25).abs() < 1e-9 && navigation.camera == before);
+        navigation.camera = near;
+        assert_near(place_px(&navigation, pivot), [200.0, 150.0]);
+    }
+}
+
+#[test]
 fn what_is_under_the_cursor_stays_there_while_zooming_and_follows_while_panning() {
     for parallel in [false, true] {
         let mut navigation = start();

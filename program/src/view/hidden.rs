@@ -1,0 +1,76 @@
+//! Pictures that nobody sees, drawn while the window rests, so that what a hand comes to next finds pipelines that have run.
+
+use surfel::scene::{Camera, Lod, Settings};
+
+use super::{refine::LEVELED_PX, viewer::Viewer};
+
+/// What a picture is that nobody sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hidden {
+    /// One that moves, of a step of the pace.
+    Moving(usize),
+    /// [`super::refine::Refinement::Leveled`].
+    Leveled,
+    /// One from another distance, of [`DISTANCES`]; as it moves, or with all splats.
+    From(usize, bool),
+}
+
+/// A picture that nobody sees.
+pub struct HiddenPicture {
+    pub what: Hidden,
+    pub camera: Camera,
+    pub settings: Settings,
+}
+
+/// Distances over that of now from which other pipelines draw the scene: of splats of other sizes in pixels tiles are of other heights, large ones are drawn apart, and some are beside the picture or near the eye.
+const DISTANCES: [f64; 3] = [1.0 / 4.0, 1.0 / 16.0, 4.0];
+
+impl Hidden {
+    /// Whether another device draws both before the window draws one of them. Those that a hand comes to at once are before the others.
+    pub fn comes_with(self, other: Self) -> bool {
+        matches!(self, Self::From(..)) == matches!(other, Self::From(..))
+    }
+}
+
+impl Viewer {
+    /// The first of [`Self::hidden_pictures`].
+    pub fn next_hidden(&self, whole: &Settings) -> Option<HiddenPicture> {
+        self.hidden_pictures(whole).into_iter().next()
+    }
+
+    /// Pictures that are to be drawn once and that nobody sees, so that the first ones of a hand, and the first when it rests, find pipelines that have run.
+    pub fn hidden_pictures(&self, whole: &Settings) -> Vec<HiddenPicture> {
+        let is_whole = self.prepared.as_ref().is_some_and(|prepared| prepared.pages().is_none());
+        let Some(navigation) = self.navigation.as_ref().filter(|_| is_whole && self.comparing.is_none())
+        else {
+            return Vec::new();
+        };
+        let mut all = Vec::new();
+        if !self.pace.is_finest() {
+            let paces = self.pace.and_next().filter(|pace| !pace.is_finest());
+            all.extend(
+                paces.map(|pace| {
+                    (Hidden::Moving(pace.step()), navigation.camera, self.coarse_by(&pace, whole))
+                }),
+            );
+            if self.has_leveled(whole) && self.pace.is_slow() {
+                let leveled = Settings { lod: Lod::Px(LEVELED_PX), ..whole.clone() };
+                all.push((Hidden::Leveled, navigation.camera, leveled));
+            }
+        }
+        // Where a driver compiles what runs first. Another scene on its way to the device has other pipelines.
+        if self.ahead.is_some() && !self.prepares {
+            let moving = self.coarse(whole);
+            let settings = [(true, moving.clone()), (false, Settings { lod: whole.lod, ..moving })];
+            let from = |(number, factor): (usize, &f64)| {
+                let camera = navigation.at_distance(*factor, whole.size_px);
+                settings.clone().map(|(moves, settings)| (Hidden::From(number, moves), camera, settings))
+            };
+            all.extend(DISTANCES.iter().enumerate().flat_map(from));
+        }
+        all.retain(|(what, camera, settings)| {
+            !self.hidden.contains(what) && self.gpu.headless.renderer.check(camera, settings).is_ok()
+        });
+        all.into_iter().map(|(what, camera, settings)| HiddenPicture { what, camera, settings }).collect()
+    }
+}
