@@ -15,7 +15,7 @@ use crate::{
     hierarchies::{self, HierarchyArguments, Readers},
     measure::View,
     outputs::PictureFormat,
-    pictures::{self, Colors},
+    pictures::{self, Colors, Dump},
     scene::{Loaded, upload},
     steps::Steps,
 };
@@ -134,4 +134,20 @@ pub fn draw_by(
         false => frame.srgb,
     };
     Ok(Pixels { size_px: frame.size_px, bytes, linear: frame.linear, plan: frame.plan })
+}
+
+/// The picture, and the surface in a frame of its own, whose edges are hard.
+pub fn dump(settings: &Settings, draw: Draw<'_>) -> Result<Dump> {
+    let picture = Wanted { picture: true, linear: true, surface: false, profile: None };
+    let color = draw(settings, picture)?.linear;
+    let frame = draw(settings, Wanted { surface: true, ..picture })?;
+    let three = |values: &[[f32; 4]]| values.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
+    Ok(Dump {
+        size_px: frame.size_px,
+        albedo: three(&frame.albedo),
+        normal: three(&frame.normal),
+        weight: frame.weight,
+        depth: frame.depth,
+        color,
+    })
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use surfel::{
     Error, Result,
-    renderer::{Headless, Wanted},
+    renderer::Headless,
     report::RunReport,
     scene::{Ball, Budget, CameraPath, CropView, Edges, Epsilon, Settings, Storage},
 };
@@ -25,8 +25,7 @@ use crate::{
     parse,
     pick::{PickArguments, PickReport},
     picture::{Drawn, PictureArguments},
-    pictures::{self, Dump},
-    ranks,
+    pictures, ranks,
     reports::{device_report, scene_report},
     scene::Loaded,
     scene_file_keys::KEYS,
@@ -284,7 +283,7 @@ fn write(
     if let Some(folder) = &picture.dump {
         let mut draw =
             |settings: &Settings, wanted| headless.render(view.scene, view.camera, settings, wanted);
-        dump(view.settings, &mut draw)?.cut(crop).write(folder)?;
+        drawing::dump(view.settings, &mut draw)?.cut(crop).write(folder)?;
     }
     let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &drawn.plan);
     if arguments.explain {
@@ -296,20 +295,4 @@ fn write(
     }
     explanation.beyond_f32.iter().for_each(|note| console::say(note));
     Ok(())
-}
-
-/// The picture, and the surface in a frame of its own, whose edges are hard.
-pub fn dump(settings: &Settings, draw: drawing::Draw<'_>) -> Result<Dump> {
-    let picture = Wanted { picture: true, linear: true, surface: false, profile: None };
-    let color = draw(settings, picture)?.linear;
-    let frame = draw(settings, Wanted { surface: true, ..picture })?;
-    let three = |values: &[[f32; 4]]| values.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
-    Ok(Dump {
-        size_px: frame.size_px,
-        albedo: three(&frame.albedo),
-        normal: three(&frame.normal),
-        weight: frame.weight,
-        depth: frame.depth,
-        color,
-    })
 }

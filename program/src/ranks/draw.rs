@@ -22,7 +22,7 @@ use crate::{
     outputs::{self, PictureFormat},
     picture::Drawn,
     pictures,
-    render::{self, RenderArguments},
+    render::RenderArguments,
     scene::{Loaded, upload},
     unused,
 };
@@ -169,7 +169,7 @@ fn write(
     let transparent = view.settings.background.is_none();
     pictures::write_picture(output, *format, drawn.size_px, transparent, drawn.colors(*format))?;
     if let Some(folder) = &arguments.picture.dump {
-        render::dump(view.settings, &mut shade)?.cut(crop).write(folder)?;
+        drawing::dump(view.settings, &mut shade)?.cut(crop).write(folder)?;
     }
     Ok(())
 }
