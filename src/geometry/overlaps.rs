@@ -9,8 +9,8 @@
 //!
 //! Seen at a slant a disk that lies off its surface by h is off its place in the image by h times the slant's tangent, so that sums of a noisy surface vary
 //! the more the flatter it is seen, and pixels inside of it would let through what is behind. Its *roughness* ρ is the square mean of h at the same places, over those disks there, by their weights, and over
-//! their size. Smooth surfaces have up to 0.1 (1% to 9% of balls, scans and folds), points of a scanner with noise of a seventh of their disks' radii 0.21. From ROUGH on, to twice that, K μ is
-//! less, up to ROUGH_SUM times: their outlines reach out by a third of a pixel for it, which are as rough. What curves cut has a rule of its own.
+//! their size. Smooth surfaces have up to 0.1 (1% to 9% of balls, scans and folds), points of a scanner with noise of a sixth of their disks' radii 0.21. From ROUGH on, to twice that, K μ is
+//! less, up to ROUGH_SUM times: their outlines, which are as rough, reach out by 0.3 pixels for it. What curves cut has a rule of its own.
 
 mod grids;
 
