@@ -267,6 +267,7 @@
 #define SHARP_REACH 0.5             // or where no outline is within so much of the splat's radius and the filter's (`tile_project.comp.glsl`),
 #define SHARP_MINOR 0.3             // and the image is wider than so much of the filter's radius; all of it from the filter's radius on.
 #define WHOLE_EDGE_SUM 0.79         // From this sum over the overlap on a pixel is covered, unless the surface ends there.
+#define WHOLE_FLAT_SUM 0.6          // The same where the sum hardly falls, so that nothing ends there.
 #define MOST_POLYGON_SAMPLES 4      // Samples of a pixel at which polygons are drawn, where they cover pixels in part.
 #define WHOLE_SEAM_SUM 0.4          // From this sum on, splats hide the polygons of the same surface: at a seam half of a surface's are there.
 #define EYE_DOME_STRENGTH 0.7         // How much darker eye-dome lighting makes a slope of 1 all around, as an exponent.

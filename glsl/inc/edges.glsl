@@ -48,6 +48,9 @@ const float NEARLY_WHOLE = 0.96;
 
 const float LEFT_OUT = 0.225;
 
+// What falls as steeply, and no steeper, may end there or go on.
+const float NOT_FLAT = 0.45;
+
 // C = x - y r^2 of a splat whose map has this change of u along x and y, and of v, per pixel.
 vec2 own_coverage(vec4 uv)
 {
@@ -59,15 +62,22 @@ vec2 own_coverage(vec4 uv)
     return vec2(0.5 * sureness + slope * rho2, slope);
 }
 
-// `summed`: A. `own`: C. `fall`: by how much A falls a pixel, over twice the decline of the kernel's logarithm at the center (kernel.glsl).
-float edge_opacity(float summed, float own, float fall)
+// How steeply A falls, over how steeply it falls at a border. `fall`: by how much a pixel, over twice the decline of the kernel's logarithm at the center (kernel.glsl).
+float steepness_of(float summed, float fall)
 {
     float sum = min(summed, 1.0);
     float left = sum * (1.0 - sum);
-    float steepest = left * (2.15 - 2.2 * left);
     float steep = LN_2 * KERNEL_A * FILTER_PX * fall; // over sigma h, of which sigma is 1/2
-    float ends = smooth_step((steep - 0.45 * steepest) / max(0.35 * steepest, 1e-6)) * smooth_step((0.92 - sum) * 10.0);
-    float stretched = min(sum, 0.5) + max(sum - 0.5, 0.0) * (0.5 / (WHOLE_EDGE_SUM - 0.5));
+    return steep / max(left * (2.15 - 2.2 * left), 1e-6);
+}
+
+// `summed`: A. `own`: C.
+float edge_opacity(float summed, float own, float steepness)
+{
+    float sum = min(summed, 1.0);
+    float ends = smooth_step((steepness - NOT_FLAT) / 0.35) * smooth_step((0.92 - sum) * 10.0);
+    float whole = mix(WHOLE_FLAT_SUM, WHOLE_EDGE_SUM, smooth_step((steepness - 0.25) / 0.2));
+    float stretched = min(sum, 0.5) + max(sum - 0.5, 0.0) * (0.5 / (whole - 0.5));
     float at_end = sum + (CURVED ? 0.0 : LEFT_OUT) * sqrt(sum) * (1.0 - sum) * (1.0 - sum);
     float opacity = FORMULA(FORMULA_EDGE_OPACITY, max(mix(stretched, at_end, ends), own) / NEARLY_WHOLE);
     return clamp(opacity, 0.0, 1.0);

@@ -54,7 +54,7 @@ float kept_part(int row)
     vec4 toward = kept_toward[row];
     vec4 pairs = max(toward, toward.yzwx);
     float kept = min(pairs.x + pairs.z, pairs.y + pairs.w);
-    return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y, 0.0)), 1.0) : 1.0;
+    return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y, NOT_FLAT)), 1.0) : 1.0;
 }
 
 // The sum of weights alone, for whoever finds the opacity from it.
@@ -66,5 +66,6 @@ float covering_sum(int row)
 // The part of the pixel that the surface covers.
 float opacity_of(int row)
 {
-    return kept_part(row) * edge_opacity(has_own_sum() ? summed[row] : colors[row].w, 1.0 - gap[row], length(fall[row]));
+    float sum = has_own_sum() ? summed[row] : colors[row].w;
+    return kept_part(row) * edge_opacity(sum, 1.0 - gap[row], steepness_of(sum, length(fall[row])));
 }

@@ -8,9 +8,10 @@
 //! overlap of a splat is K μ: so the sum is 1 in the mean.
 //!
 //! Seen at a slant a disk that lies off its surface by h is off its place in the image by h times the slant's tangent, so that sums of a noisy surface vary
-//! the more the flatter it is seen, and pixels inside of it would let through what is behind. Its *roughness* ρ is the square mean of h at the same places, over those disks there, by their weights, and over
-//! their size. Smooth surfaces have up to 0.1 (1% to 9% of balls, scans and folds), points of a scanner with noise of a sixth of their disks' radii 0.21. From ROUGH on, to twice that, K μ is
-//! less, up to ROUGH_SUM times: their outlines, which are as rough, reach out by 0.3 pixels for it. What curves cut has a rule of its own.
+//! the more the flatter it is seen, and pixels inside of it would let through what is behind. What disks have that stand like the slats of a blind, with normals that are not
+//! the surface's, is no noise: their heights cancel at each one's center. So the *roughness* ρ of a surface is the mean square of what the heights of a center over the disks there are in the mean, over the
+//! root of the mean square of h at the same places as above, all by the disks' weights, and over their size: 0 to 0.05 of balls, folds, and a wire of slats, 0.08 of a scanner's points with noise of a sixth of their
+//! disks' radii. From ROUGH on, to twice that, K μ is less, up to ROUGH_SUM times: their outlines, which are as rough, reach out by 0.3 pixels for it. What curves cut has a rule of its own.
 
 mod grids;
 
@@ -30,7 +31,7 @@ const CELLS_AT_ONCE: usize = 1024;
 const SAMPLES: usize = 1024;
 
 /// The roughness from which on sums vary too much.
-const ROUGH: f64 = 0.1;
+const ROUGH: f64 = 0.04;
 
 /// How many times as much a surface sums to that is twice as rough, or more.
 const ROUGH_SUM: f64 = 1.5;
@@ -79,18 +80,20 @@ fn sum_of_whole(grids: &Grids, splats: &Splats, inverse: &[f32]) -> f64 {
         let frame = dual_frame(splats, i);
         let from_center = from_center(n, frame);
         if removes(&splats.clips.get(i), DVec2::new(frame[0].dot(from_center), frame[1].dot(from_center))) {
-            return [0.0; 3];
+            return [0.0; 4];
         }
         let place = splats.positions[i] + from_center;
         let (area, inverse_of) = (area_of(splats, i), |of: u32| f64::from(inverse[of as usize]));
-        let [sum, heights] = grids.sums_on(splats, i, place, inverse_of);
+        let [sum, _, squares] = grids.sums_on(splats, i, place, inverse_of);
+        let [at_center, heights, _] = grids.sums_on(splats, i, splats.positions[i], inverse_of);
         let own = area * f64::from(inverse[i]);
-        [own * sum, own, own * heights / area]
+        [own * sum, own, own * squares / area, own * sum * (heights / at_center).powi(2) / area]
     };
-    let all: Vec<[f64; 3]> = (0..count).into_par_iter().map(sample).collect();
-    let [sum, own, heights] =
-        all.iter().fold([0.0; 3], |sum, of| [sum[0] + of[0], sum[1] + of[1], sum[2] + of[2]]);
-    let roughness = if splats.clips.is_empty() { (heights / sum).max(0.0).sqrt() } else { 0.0 };
+    let all: Vec<[f64; 4]> = (0..count).into_par_iter().map(sample).collect();
+    let [sum, own, squares, means] =
+        all.iter().fold([0.0; 4], |sum, of| std::array::from_fn(|i| sum[i] + of[i]));
+    let is_rough = splats.clips.is_empty() && squares > 0.0;
+    let roughness = if is_rough { means / (sum * squares).sqrt() } else { 0.0 };
     ratio(sum, own) / more_of_rough(roughness)
 }
 

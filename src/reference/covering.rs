@@ -15,6 +15,12 @@ use crate::scene::{MeshObject, Object, Opacity, Scene, Settings};
 /// From this sum on a pixel is covered, unless the surface ends there; sums of a whole surface are not all 1.
 const WHOLE_SUM: f64 = 0.79;
 
+/// The same where it falls by less than a quarter of what it does at a border.
+const FLAT_SUM: f64 = 0.6;
+
+/// What falls as steeply, over a border, and no steeper, may end there or go on.
+const NOT_FLAT: f64 = 0.45;
+
 /// What weights that end at the rims of splats miss of a surface that ends: this times √A (1 - A)².
 const LEFT_OUT: f64 = 0.225;
 
@@ -76,18 +82,23 @@ pub(super) fn smooth_step(x: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// Of a sum over the overlap that falls by so much a pixel, and of what disks cover by themselves. `covering`: of any of the splats.
-///
-/// At a border the sum is `A = Φ(d/s)`, at distance d under a Gaussian of standard deviation `s = h/2`, and falls by `φ(Φ⁻¹(A))/s`. What falls as steeply ends
-/// there, and its sum is right; what does not is inside.
-fn whole(sum: f64, fall: f64, alone: f64, covering: &Covering) -> f64 {
+/// By how much a sum over the overlap falls a pixel, over that at a border: there it is `A = Φ(d/s)`, at distance d under a Gaussian of standard deviation
+/// `s = h/2`, and falls by `φ(Φ⁻¹(A))/s`.
+fn steepness(sum: f64, fall: f64, covering: &Covering) -> f64 {
     let a = sum.min(1.0);
     // φ(Φ⁻¹(A)) is this within 0.01.
     let steepest = a * (1.0 - a) * (2.15 - 2.2 * a * (1.0 - a));
-    let steep = fall * covering.h_px / 2.0;
-    let ends = if steepest > 0.0 { smooth_step((steep / steepest - 0.45) / 0.35) } else { 0.0 };
-    let ends = ends * smooth_step((0.92 - a) / 0.1);
-    let inside = if a < 0.5 { a } else { 0.5 + 0.5 * (a - 0.5) / (WHOLE_SUM - 0.5) };
+    if steepest > 0.0 { fall * covering.h_px / 2.0 / steepest } else { 0.0 }
+}
+
+/// Of a sum over the overlap, how steeply it falls, and what disks cover by themselves. `covering`: of any of the splats.
+///
+/// What falls as steeply as a border ends there, and its sum is right; what does not is inside, and what hardly falls is so for sure.
+fn whole(sum: f64, steepness: f64, alone: f64, covering: &Covering) -> f64 {
+    let a = sum.min(1.0);
+    let ends = smooth_step((steepness - NOT_FLAT) / 0.35) * smooth_step((0.92 - a) / 0.1);
+    let whole = FLAT_SUM + (WHOLE_SUM - FLAT_SUM) * smooth_step((steepness - 0.25) / 0.2);
+    let inside = if a < 0.5 { a } else { 0.5 + 0.5 * (a - 0.5) / (whole - 0.5) };
     let at_end = a + covering.left_out * a.sqrt() * (1.0 - a).powi(2);
     ((inside + ends * (at_end - inside)).max(alone) / NEARLY_WHOLE).min(1.0)
 }
@@ -117,10 +128,11 @@ fn opacity(parts: &[Part]) -> f64 {
         0.0 => 1.0,
         kept => {
             let uncut = |part: &Part| cut(part).is_none();
-            kept.max(whole(sum(&uncut), 0.0, alone(&uncut), covering)).min(1.0)
+            kept.max(whole(sum(&uncut), NOT_FLAT, alone(&uncut), covering)).min(1.0)
         }
     };
-    kept * whole(sum(&|_| true), fall.length(), alone(&|_| true), covering)
+    let all = sum(&|_| true);
+    kept * whole(all, steepness(all, fall.length(), covering), alone(&|_| true), covering)
 }
 
 /// [`opacity`] of fragments of splats.

@@ -2,8 +2,8 @@
 //!
 //! A splat's crowd is the sum of weights at its center, its own among them, over the splats that face the same way, are no smaller than half of
 //! it, and whose disks are there: a ball of its larger radius around each holds the center, which no clip cuts off. What weights over crowds sum to in the mean over the surface is found at 1024 places: the overlap is the
-//! crowd times that mean. Of a rough surface it is less: the mean over those places of the squared height above the disks there, by their weights, over that of the splat's own size is its squared roughness, and from a
-//! tenth of roughness on, to two tenths, the mean sum is divided by up to one and a half. Not where a curve cuts any.
+//! crowd times that mean. Of a rough surface it is less: its roughness is ⟨m²⟩ / √⟨h²⟩, over those places, with h the height above each disk there, by their weights, and m the mean height of the splat's center above
+//! the disks at it, both over the splat's own size; from 0.04 on, to 0.08, the mean sum is divided by up to one and a half. Not where a curve cuts any.
 
 use glam::{DVec2, DVec3};
 
@@ -49,7 +49,7 @@ pub(super) fn overlaps(splats: &Splats, kernel: Kernel) -> Vec<f64> {
     let mut numbers: Vec<usize> = (0..all.len()).collect();
     numbers.sort_by_key(|i| all[*i].number);
     let places = all.len().min(PLACES);
-    let (mut sum, mut area, mut rough) = (0.0, 0.0, 0.0);
+    let (mut sum, mut area, mut rough, mut uneven) = (0.0, 0.0, 0.0, 0.0);
     for n in 0..places {
         let of = &all[numbers[n * all.len() / places]];
         let place = place_on(of, n);
@@ -62,14 +62,23 @@ pub(super) fn overlaps(splats: &Splats, kernel: Kernel) -> Vec<f64> {
             there += part;
             heights += part * (place - other.center).dot(other.normal).powi(2);
         }
-        let own = of.s.cross(of.t).length() / overlaps[of.number];
+        let (mut at_center, mut above) = (0.0, 0.0);
+        for other in near(of.center) {
+            let part = weight_at(other, of, of.center) / overlaps[other.number];
+            at_center += part;
+            above += part * (of.center - other.center).dot(other.normal);
+        }
+        let size2 = of.s.cross(of.t).length();
+        let own = size2 / overlaps[of.number];
         sum += own * there;
         area += own;
-        rough += own * heights / of.s.cross(of.t).length();
+        rough += own * heights / size2;
+        uneven += own * there * (above / at_center).powi(2) / size2;
     }
-    let roughness = if sum > 0.0 && splats.clips.is_empty() { (rough / sum).sqrt() } else { 0.0 };
+    let is_rough = rough > 0.0 && splats.clips.is_empty();
+    let roughness = if is_rough { uneven / sum / (rough / sum).sqrt() } else { 0.0 };
     let whole = if area > 0.0 { sum / area } else { 1.0 };
-    let mean = whole / (1.0 + 0.5 * smooth_step((roughness - 0.1) / 0.1));
+    let mean = whole / (1.0 + 0.5 * smooth_step((roughness - 0.04) / 0.04));
     let under = (integral(kernel) / integral(KERNEL)).max(LEAST);
     all.iter().for_each(|of| overlaps[of.number] *= mean * under);
     overlaps

@@ -82,8 +82,8 @@ impl Grids {
         self.cells.len()
     }
 
-    /// What a place on a splat has in sum of weights, each times its factor; and of these times the squared height of the place over the disk's plane.
-    pub fn sums_on(&self, splats: &Splats, i: usize, place: DVec3, factor: impl Fn(u32) -> f64) -> [f64; 2] {
+    /// What a place on a splat has in sum of weights, each times its factor; and of these times the height of the place over the disk's plane, and times its square.
+    pub fn sums_on(&self, splats: &Splats, i: usize, place: DVec3, factor: impl Fn(u32) -> f64) -> [f64; 3] {
         let octave = octave_of(splats.major_radius(i));
         let mut search = Search::default();
         self.find(splats, octave, cell_of(place, octave), &mut search);
@@ -102,7 +102,7 @@ impl Grids {
         self.find(splats, self.octaves[octave].0, self.cells[cell], search);
         for &splat in &self.splats[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
             let i = splat as usize;
-            let [crowd, _] = sums_at(&search.near, splats, i, splats.positions[i], |_| 1.0);
+            let [crowd, ..] = sums_at(&search.near, splats, i, splats.positions[i], |_| 1.0);
             tell(splat, crowd.max(1.0));
         }
     }
@@ -180,10 +180,10 @@ fn sums_at(
     of: usize,
     place: DVec3,
     factor: impl Fn(u32) -> f64,
-) -> [f64; 2] {
+) -> [f64; 3] {
     let normal = dual_frame(splats, of)[2];
     let least = (LEAST_SIZE * splats.major_radius(of)) as f32;
-    let mut sums = [0.0; 2];
+    let mut sums = [0.0; 3];
     for neighbor in near {
         let from_center = place - neighbor.position;
         let radius = f64::from(neighbor.radius);
@@ -197,7 +197,7 @@ fn sums_at(
         if is_there && its_normal.dot(normal) > 0.0 {
             let weight = neighbor.count * factor(neighbor.splat) * (-2.0 * uv.length_squared()).exp();
             let height = its_normal.dot(from_center);
-            sums = [sums[0] + weight, sums[1] + weight * height * height];
+            sums = [sums[0] + weight, sums[1] + weight * height, sums[2] + weight * height * height];
         }
     }
     sums
