@@ -11,8 +11,8 @@
 // Sums inside of a surface vary still, by an eighth and more where splats are larger than the filter, and what is behind would show through. So A is taken
 // for what it is where the surface ends, and stretched above one half elsewhere, so that it is whole from WHOLE_EDGE_SUM on. How steeply A falls tells
 // which: at the border of a half plane A = Phi(d / (sigma h)), d the distance in pixels, and falls by phi(Phi^-1(A)) / (sigma h) a pixel, which is
-// A (1 - A) (2.15 - 2.2 A (1 - A)) over sigma h within 0.01. Inside A falls by a fifth of that, mostly. Where little is missing, noise may be as steep:
-// from A = 0.92 on it counts as whole.
+// A (1 - A) (2.15 - 2.2 A (1 - A)) over sigma h within 0.01. Inside A falls by a fifth of that, mostly. What falls by less than a quarter of it is inside for sure,
+// and whole from a smaller sum on, WHOLE_FLAT_SUM. Where little is missing, noise may be as steep: from A = 0.92 on it counts as whole.
 //
 // Of what ends A is a little small: weights end with the kernel, at two standard deviations, and the rims of the last splats stand out of what
 // is whole. t - A over A is 0.225 sqrt(A) (1 - A)^2 within 0.01 for balls and scans whose splats are up to some pixels large (LEFT_OUT).
@@ -32,8 +32,7 @@
 // nothing lies beyond, A is a half of its mean, and less. There the curves tell what is covered (inc/clip_image.glsl), so that A may be too much: it is
 // SHARP_SUM times as much, but where the surface ends by turning away or is seen edge-on (tile_project.comp.glsl).
 //
-// Limits: surfaces of which several lie within a few epsilon; A of a thin line of splats is too
-// small.
+// Limits: surfaces of which several lie within a few epsilon; A of a thin line of splats is too small, and along its middle, where it does not fall, may count as whole.
 
 #include "inc/minor_axis.glsl"
 #include "inc/smooth_step.glsl"

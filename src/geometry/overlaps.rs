@@ -10,8 +10,9 @@
 //! Seen at a slant a disk that lies off its surface by h is off its place in the image by h times the slant's tangent, so that sums of a noisy surface vary
 //! the more the flatter it is seen, and pixels inside of it would let through what is behind. What disks have that stand like the slats of a blind, with normals that are not
 //! the surface's, is no noise: their heights cancel at each one's center. So the *roughness* ρ of a surface is the mean square of what the heights of a center over the disks there are in the mean, over the
-//! root of the mean square of h at the same places as above, all by the disks' weights, and over their size: 0 to 0.05 of balls, folds, and a wire of slats, 0.08 of a scanner's points with noise of a sixth of their
-//! disks' radii. From ROUGH on, to twice that, K μ is less, up to ROUGH_SUM times: their outlines, which are as rough, reach out by 0.3 pixels for it. What curves cut has a rule of its own.
+//! root of the mean square of h at the same places as above, all by the disks' weights, and over their size. It is 0.01 of balls, 0.03 of a wire of slats, 0.05 of points with noise of a twelfth of their
+//! disks' radii and of folds some splats wide, 0.08 of noise of a sixth and of folds that are narrower. From ROUGH on, to twice that, K μ is less, up to ROUGH_SUM times: their outlines, which are as rough, reach
+//! out by 0.3 pixels for it. What curves cut has a rule of its own.
 
 mod grids;
 

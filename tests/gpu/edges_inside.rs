@@ -19,10 +19,13 @@ const INSIDE_PX: usize = 4;
 /// As what lets 3% of the background through is seen.
 const WHOLE: f32 = 0.97;
 
-fn seen_from_afar(object: Object, side_px: u32) -> Hard {
+/// So few pixels in a picture are tolerated: sums of weights vary by chance.
+const MOST_THROUGH: usize = 15;
+
+fn seen_from_afar(object: Object, eye: [f64; 3], side_px: u32) -> Hard {
     let mut scene = builder::Builder::default().scene(true);
     scene.objects = vec![object];
-    with(&Hard::seen_from([3.0, 1.2, 2.4], "goes on", scene), |settings| {
+    with(&Hard::seen_from(eye, "goes on", scene), |settings| {
         settings.rasterizer = Rasterizer::Compute;
         settings.background = None;
         settings.size_px = [side_px; 2];
@@ -30,9 +33,9 @@ fn seen_from_afar(object: Object, side_px: u32) -> Hard {
 }
 
 /// How many pixels are inside by hard edges, and how many of these let light through.
-fn let_through(object: Object, side_px: u32) -> [usize; 2] {
+fn let_through(object: Object, eye: [f64; 3], side_px: u32) -> [usize; 2] {
     let mut headless = shared();
-    let hard = seen_from_afar(object, side_px);
+    let hard = seen_from_afar(object, eye, side_px);
     let [crisp, covering] = [Edges::Hard, Edges::Coverage].map(|edges| {
         let set = |settings: &mut Settings| settings.edges = edges;
         render_as(&mut headless, &with(&hard, set), PICTURE).linear
@@ -61,24 +64,24 @@ fn scanned_floor(points: usize) -> Object {
     Object { name: "floor".to_owned(), splats, closed: false }
 }
 
-/// The bumps of the built-in relief, slanted, and balls of splats from a part of a pixel to ten large.
+/// The bumps of the built-in relief, slanted and as the program shows them, and balls of splats from a part of a pixel to ten large.
 #[test]
 fn what_goes_on_lets_no_light_through() {
-    let mut most = 0.0_f64;
+    let (slanted, front) = ([3.0, 1.2, 2.4], [0.0, 0.0, 2.95]);
     let objects = [
-        ("relief", relief(100_000), 512),
-        ("relief", relief(20_000), 512),
-        ("ball", scenes::sphere(20_000, DVec3::ZERO), 256),
-        ("ball", scenes::sphere(1_000, DVec3::ZERO), 512),
-        ("floor", scanned_floor(40_000), 256),
-        ("floor", scanned_floor(40_000), 512),
+        ("relief", relief(100_000), slanted, 512),
+        ("relief", relief(20_000), slanted, 512),
+        ("relief", relief(150_000), front, 1024),
+        ("ball", scenes::sphere(20_000, DVec3::ZERO), slanted, 256),
+        ("ball", scenes::sphere(1_000, DVec3::ZERO), slanted, 512),
+        ("floor", scanned_floor(40_000), slanted, 256),
+        ("floor", scanned_floor(40_000), slanted, 512),
     ];
-    for (name, object, side_px) in objects {
+    for (name, object, eye, side_px) in objects {
         let splats = object.splats.len();
-        let [inside, through] = let_through(object, side_px);
+        let [inside, through] = let_through(object, eye, side_px);
         println!("{name} of {splats} splats, {side_px} px: {through} of {inside} pixels let light through");
         assert!(inside > 10_000, "{inside}");
-        most = most.max(through as f64 / inside as f64);
+        assert!(through <= MOST_THROUGH, "{name}: {through}");
     }
-    assert!(most < 1e-3, "{most}");
 }
