@@ -69,6 +69,61 @@
 #define SURFEL_MAX_FORMATS 16
 
 /**
+ * Splats, or of a mesh what shows it best: triangles where splats would have to be too large, or too many.
+ */
+#define SURFEL_REPRESENTATION_AUTO 0
+
+/**
+ * Splats.
+ */
+#define SURFEL_REPRESENTATION_SPLATS 1
+
+/**
+ * The triangles of a mesh.
+ */
+#define SURFEL_REPRESENTATION_MESH 2
+
+/**
+ * Triangles of a mesh, and splats in place of the others.
+ */
+#define SURFEL_REPRESENTATION_HYBRID 3
+
+/**
+ * The view decides, cell by cell: triangles where splats would be larger than levels of detail may be.
+ */
+#define SURFEL_POLYGONS_BY_VIEW 0
+
+/**
+ * Triangles stay whose middle is not behind `plane`.
+ */
+#define SURFEL_POLYGONS_PLANE 1
+
+/**
+ * Triangles stay that have an edge longer than `longerThan`.
+ */
+#define SURFEL_POLYGONS_LONGER_THAN 2
+
+/**
+ * One curve for each piece of a sharp edge, which the splats on both sides share.
+ */
+#define SURFEL_CLIPPING_SHARED 0
+
+/**
+ * For each splat a curve of its own.
+ */
+#define SURFEL_CLIPPING_OWN 1
+
+/**
+ * Straight lines.
+ */
+#define SURFEL_CLIPPING_LINES 2
+
+/**
+ * Nothing: splats stick out.
+ */
+#define SURFEL_CLIPPING_NONE 3
+
+/**
  * Nothing, or what `timed` says: in `measures` of `SurfelFrame`, as those that follow.
  */
 #define SURFEL_MEASURE_NOTHING 0
@@ -274,6 +329,50 @@ enum SurfelStructureType
    * `SurfelHybridLevels`.
    */
   SURFEL_STRUCTURE_TYPE_HYBRID_LEVELS = 19,
+  /**
+   * `SurfelListener`.
+   */
+  SURFEL_STRUCTURE_TYPE_LISTENER = 20,
+  /**
+   * `SurfelLoadOptions`.
+   */
+  SURFEL_STRUCTURE_TYPE_LOAD_OPTIONS = 21,
+  /**
+   * `SurfelDescription`.
+   */
+  SURFEL_STRUCTURE_TYPE_DESCRIPTION = 22,
+  /**
+   * `SurfelPoints`.
+   */
+  SURFEL_STRUCTURE_TYPE_POINTS = 23,
+  /**
+   * `SurfelSharp`.
+   */
+  SURFEL_STRUCTURE_TYPE_SHARP = 24,
+  /**
+   * `SurfelSceneContents`.
+   */
+  SURFEL_STRUCTURE_TYPE_SCENE_CONTENTS = 25,
+  /**
+   * `SurfelCamera`.
+   */
+  SURFEL_STRUCTURE_TYPE_CAMERA = 26,
+  /**
+   * `SurfelHeadlessInfo`.
+   */
+  SURFEL_STRUCTURE_TYPE_HEADLESS_INFO = 27,
+  /**
+   * `SurfelHeadlessFrame`.
+   */
+  SURFEL_STRUCTURE_TYPE_HEADLESS_FRAME = 28,
+  /**
+   * `SurfelPicture`.
+   */
+  SURFEL_STRUCTURE_TYPE_PICTURE = 29,
+  /**
+   * `SurfelMemoryNeeds`.
+   */
+  SURFEL_STRUCTURE_TYPE_MEMORY_NEEDS = 30,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -287,6 +386,11 @@ typedef uint32_t SurfelStructureType;
  * A host's device. May be used by several threads at once.
  */
 typedef struct SurfelDevice SurfelDevice;
+
+/**
+ * A device and a queue of our own, which draws pictures to memory and waits for each. One thread at a time may use it.
+ */
+typedef struct SurfelHeadless SurfelHeadless;
 
 /**
  * A pixel that is looked at.
@@ -826,6 +930,48 @@ typedef struct SurfelSplats {
 } SurfelSplats;
 
 /**
+ * What a scene holds. `surfel_scene_contents` fills it.
+ */
+typedef struct SurfelSceneContents {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_SCENE_CONTENTS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelSceneContents)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  void *pNext;
+  /**
+   * How many objects of splats there are, without those that came with their levels of detail.
+   */
+  uint64_t objects;
+  /**
+   * How many of those.
+   */
+  uint64_t leveled;
+  /**
+   * How many objects of triangles.
+   */
+  uint64_t meshes;
+  /**
+   * How many of these have splats and nodes that take their place.
+   */
+  uint64_t hybrids;
+  /**
+   * How many lights.
+   */
+  uint64_t lights;
+  /**
+   * How many splats, also those that can't be drawn.
+   */
+  uint64_t splats;
+} SurfelSceneContents;
+
+/**
  * The ball by which a node is chosen, from the levels' `origin`.
  */
 typedef struct SurfelErrorBall {
@@ -1016,6 +1162,295 @@ typedef struct SurfelHybridLevels {
    */
   const uint32_t *neighbors;
 } SurfelHybridLevels;
+
+/**
+ * Is told that `done` of `total` parts of a task are finished; its name is UTF-8, valid during the call. Must return.
+ */
+typedef void (*SurfelStep)(void *user, const char *task, uint64_t done, uint64_t total);
+
+/**
+ * Is told something that is no error, such as elements that were left out: a sentence, valid during the call. Must return.
+ */
+typedef void (*SurfelNote)(void *user, const char *note);
+
+/**
+ * Who listens to a call that may take long, on the thread of that call.
+ */
+typedef struct SurfelListener {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_LISTENER`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelListener)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * What both functions are given first; may be NULL.
+   */
+  void *user;
+  /**
+   * Is told how far the call is; may be NULL.
+   */
+  SurfelStep step;
+  /**
+   * Is told what was noticed; may be NULL.
+   */
+  SurfelNote note;
+} SurfelListener;
+
+/**
+ * How files are read. Of each limit 0 is the default: as much as any file of use has.
+ */
+typedef struct SurfelLoadOptions {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_LOAD_OPTIONS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelLoadOptions)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * What the columns of rows of numbers are, by the words of `surfel render --columns`: `x,y,z,-,r,g,b`; NULL: as the file tells it.
+   */
+  const char *columns;
+  /**
+   * Who is told how far it is, and what was noticed; NULL: nobody.
+   */
+  const struct SurfelListener *listener;
+  /**
+   * Files that a file names may lie outside of its folder.
+   */
+  VkBool32 allowOutside;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reserved;
+  /**
+   * Points or vertices at most.
+   */
+  uint64_t mostPoints;
+  /**
+   * Triangles at most.
+   */
+  uint64_t mostFaces;
+  /**
+   * Bytes of a line of text at most.
+   */
+  uint64_t mostLineBytes;
+  /**
+   * Bytes of a header of text at most.
+   */
+  uint64_t mostHeaderBytes;
+  /**
+   * Corners of a polygon at most.
+   */
+  uint64_t mostListItems;
+  /**
+   * Bytes of standard input, of which no size is known beforehand.
+   */
+  uint64_t mostPipedBytes;
+  /**
+   * Bytes to which the compressed points of any LAZ or PCD file may expand, however small it is.
+   */
+  uint64_t expandedBytes;
+  /**
+   * The same of files that are compressed as a whole.
+   */
+  uint64_t unpackedBytes;
+  /**
+   * Bytes to which each byte of a larger compressed file may expand beyond these.
+   */
+  uint64_t expansion;
+  /**
+   * The same of the records of LAZ files.
+   */
+  uint64_t lazExpansion;
+} SurfelLoadOptions;
+
+/**
+ * What becomes of a model: how it is placed, colored, and as what it is drawn; as an object of a scene file is described.
+ */
+typedef struct SurfelDescription {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_DESCRIPTION`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelDescription)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * Its name, as UTF-8; NULL: that of its file, mesh or points.
+   */
+  const char *name;
+  /**
+   * A matrix of four columns, from its own coordinates to the scene's: affine, and one that can be undone. NULL: it stays where it is.
+   */
+  const double *worldFromObject;
+  /**
+   * So many new splats, spread over the surface of a mesh, or over the part of it that is drawn as splats, up to `UINT32_MAX`; 0: one at each
+   * vertex, or as many as that is.
+   */
+  uint64_t samples;
+  /**
+   * Which: the same seed gives the same splats.
+   */
+  uint64_t seed;
+  /**
+   * As what it is drawn: `SURFEL_REPRESENTATION_*`.
+   */
+  uint32_t representation;
+  /**
+   * Of `SURFEL_REPRESENTATION_HYBRID`, which triangles stay: `SURFEL_POLYGONS_*`.
+   */
+  uint32_t polygons;
+  /**
+   * The plane's normal, of any length, and d: triangles stay whose middle x has normal · x ≥ d, in the model's own coordinates.
+   */
+  double plane[4];
+  /**
+   * A length in the model's own unit.
+   */
+  double longerThan;
+  /**
+   * No splats are centered on the edges where triangles and splats meet.
+   */
+  VkBool32 withoutSampledEdges;
+  /**
+   * `color` is there.
+   */
+  VkBool32 hasColor;
+  /**
+   * Replaces its own colors: linear red, green and blue, 0 to 1.
+   */
+  float color[3];
+  /**
+   * Multiplies its own alpha, 0 to 1; 0 is 1.
+   */
+  float alpha;
+  /**
+   * The ε of its splats, as in `SurfelSplats`.
+   */
+  double epsilon;
+  /**
+   * The same in mean radii.
+   */
+  double epsilonInRadii;
+  /**
+   * The same as `auto`.
+   */
+  VkBool32 autoEpsilon;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reserved;
+} SurfelDescription;
+
+/**
+ * Points on surfaces, by arrays, as scanners see them: normals and radii that they don't have are found from the points nearby.
+ */
+typedef struct SurfelPoints {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_POINTS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelPoints)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * Shown in messages, as UTF-8; NULL: `points`.
+   */
+  const char *name;
+  /**
+   * How many there are.
+   */
+  uint64_t count;
+  /**
+   * Where: x, y, z of each.
+   */
+  const double *positions;
+  /**
+   * Their normals, of any length, x, y, z of each; NULL: there are none.
+   */
+  const float *normals;
+  /**
+   * Their radii; NULL: there are none.
+   */
+  const float *radii;
+  /**
+   * Red, green, blue and alpha of each, linear, straight, 0 to 1; NULL: all are the opaque gray of surfaces without colors.
+   */
+  const float *colors;
+  /**
+   * How many colors there are: `count`, or 1 for all points.
+   */
+  uint64_t colorCount;
+  /**
+   * From where all of them were seen, x, y, z, which normals turn toward; NULL: it is not known.
+   */
+  const double *viewpoint;
+} SurfelPoints;
+
+/**
+ * How a mesh becomes splats that are cut at its sharp edges.
+ */
+typedef struct SurfelSharp {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_SHARP`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelSharp)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * So many splats at most, where the mesh can be simplified so far; 0: one for each triangle, or as few as `maxError` allows.
+   */
+  uint64_t splats;
+  /**
+   * The largest error of a simplification, in the mesh's unit; 0: any.
+   */
+  double maxError;
+  /**
+   * The least angle between the normals of two triangles at a sharp edge, in radians; 0: 30 degrees.
+   */
+  double creaseRad;
+  /**
+   * What cuts splats at sharp edges: `SURFEL_CLIPPING_*`.
+   */
+  uint32_t clipping;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reserved;
+  /**
+   * Who is told how far it is; NULL: nobody.
+   */
+  const struct SurfelListener *listener;
+} SurfelSharp;
 
 /**
  * What is known of disks that a host writes on the device, by a compute shader or by copies. All of it may be wrong by being too large, at
@@ -1582,6 +2017,206 @@ typedef struct SurfelPicked {
   double depth;
 } SurfelPicked;
 
+/**
+ * A camera by its eye and what it looks at, for `surfel_headless_render`: a host with a frame of its own has matrices (`SurfelFrame`).
+ */
+typedef struct SurfelCamera {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_CAMERA`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelCamera)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * The eye, x, y, z.
+   */
+  double eye[3];
+  /**
+   * The point in the middle of the picture, another one than the eye.
+   */
+  double target[3];
+  /**
+   * The direction that is up in the picture; all 0: +y.
+   */
+  double up[3];
+  /**
+   * The vertical field of view in radians; 0: 45 degrees.
+   */
+  double fovYRad;
+  /**
+   * The height of the whole picture in the world's unit: rays are parallel, and the field of view means nothing. 0: they meet in the eye.
+   */
+  double orthographicHeight;
+  /**
+   * The depth of the near plane, in front of which nothing is drawn; 0: a millionth of the distance from eye to target, or the eye where rays are parallel.
+   */
+  double near;
+  /**
+   * Of a picture in pieces, the size of the whole in pixels, of which this is the camera; 0: what is drawn is the whole.
+   */
+  uint32_t wholeWidth;
+  /**
+   * Its height.
+   */
+  uint32_t wholeHeight;
+  /**
+   * Where the corner of the piece lies in the whole, in pixels.
+   */
+  double cornerPx[2];
+} SurfelCamera;
+
+/**
+ * How a device of our own is opened.
+ */
+typedef struct SurfelHeadlessInfo {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_HEADLESS_INFO`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelHeadlessInfo)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * The device: its index, or a part of its name; NULL: the best one.
+   */
+  const char *device;
+  /**
+   * The folder in which pipelines are kept from run to run, as UTF-8; NULL: they are not.
+   */
+  const char *cacheFolder;
+  /**
+   * The validation layer watches (`surfel_headless_messages`).
+   */
+  VkBool32 validates;
+  /**
+   * 0; else it is refused.
+   */
+  uint32_t reserved;
+} SurfelHeadlessInfo;
+
+/**
+ * A frame of such a device.
+ */
+typedef struct SurfelHeadlessFrame {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_HEADLESS_FRAME`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelHeadlessFrame)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * What is shown, of `surfel_headless_prepare`.
+   */
+  const struct SurfelPreparedScene *scene;
+  /**
+   * From where.
+   */
+  const struct SurfelCamera *camera;
+  /**
+   * How; NULL: by the defaults. `background` is that of the picture; several `samples` of a pixel are taken one after the other.
+   */
+  const struct SurfelSettings *settings;
+  /**
+   * The picture's size in pixels.
+   */
+  uint32_t width;
+  /**
+   * Its height.
+   */
+  uint32_t height;
+  /**
+   * Its pixels are linear 32-bit floats in place of 8-bit sRGB.
+   */
+  VkBool32 linear;
+  /**
+   * There is no picture: what is wanted is only drawn, or its surface.
+   */
+  VkBool32 withoutPicture;
+  /**
+   * The surface is wanted, too: weights, albedo, normals and depth.
+   */
+  VkBool32 surface;
+  /**
+   * What is measured, for `surfel_headless_measured`: `SURFEL_MEASURE_*`.
+   */
+  uint32_t measures;
+} SurfelHeadlessFrame;
+
+/**
+ * A picture that was drawn: row by row, the top one first. `surfel_headless_render` fills it; the arrays stay as they are until the next call of it with the same object, or that is destroyed. NULL is what was not wanted.
+ */
+typedef struct SurfelPicture {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_PICTURE`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelPicture)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  void *pNext;
+  /**
+   * Its size in pixels.
+   */
+  uint32_t width;
+  /**
+   * Its height.
+   */
+  uint32_t height;
+  /**
+   * Red, green, blue (sRGB) and alpha (linear, straight) of each pixel, for `surfel_save_png`.
+   */
+  const uint8_t *srgb;
+  /**
+   * The same as linear floats, for `surfel_save_exr`.
+   */
+  const float *linear;
+  /**
+   * The sum of weights of each pixel.
+   */
+  const float *weight;
+  /**
+   * Linear red, green and blue of each pixel before shading; the fourth is 1 where it is covered.
+   */
+  const float *albedo;
+  /**
+   * The unit normal in view space (x right, y down, z forward); the fourth is 1 where it is covered.
+   */
+  const float *normal;
+  /**
+   * The depth along the view's axis, infinite where there is nothing.
+   */
+  const float *depth;
+  /**
+   * Seconds from the submission to the end of the wait for it.
+   */
+  double wallSecs;
+  /**
+   * Seconds in which it was recorded.
+   */
+  double recordSecs;
+} SurfelPicture;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1685,13 +2320,6 @@ SurfelResult surfel_scene_add_light(struct SurfelScene *scene, const char *light
 SurfelResult surfel_scene_add_splats(struct SurfelScene *scene, const struct SurfelSplats *splats);
 
 /**
- * Adds what a file holds, as `surfel render` shows it: splats, a mesh or points of any format that the library was built with, or all
- * objects and lights of a scene file (`.toml`). `path` is UTF-8; on Unix any bytes that are a path. Files that a file names are opened in
- * its folder or below.
- */
-SurfelResult surfel_scene_add_file(struct SurfelScene *scene, const char *path);
-
-/**
  * Moves all that is in a scene so far, but its lights and lengths of ε, by a matrix of four columns: turns, scales, mirrors or shears it, each splat and
  * triangle for itself. So what comes from a left-handed world, and is to be seen there, is mirrored once (`leftHanded` in `SurfelFrame`). Not
  * for what a file has levels of detail of.
@@ -1700,14 +2328,51 @@ SurfelResult surfel_scene_transform(struct SurfelScene *scene,
                                     const double *worldFromObject);
 
 /**
+ * Destroys a scene in the host's memory; NULL is nothing. What was made of it on a device stays.
+ */
+void surfel_scene_destroy(struct SurfelScene *scene);
+
+/**
+ * Tells what a scene holds.
+ */
+SurfelResult surfel_scene_contents(const struct SurfelScene *scene, struct SurfelSceneContents *contents);
+
+/**
+ * Tells the box around all splats and triangles that can be drawn: `least` and `most` get three coordinates each.
+ */
+SurfelResult surfel_scene_bounds(const struct SurfelScene *scene, double *least, double *most);
+
+/**
  * Tells a ball around all that is in a scene, for a camera: `center` gets three coordinates.
  */
 SurfelResult surfel_scene_ball(const struct SurfelScene *scene, double *center, double *radius);
 
 /**
- * Destroys a scene in the host's memory; NULL is nothing. What was made of it on a device stays.
+ * The same around the objects of this name, of splats and of triangles.
  */
-void surfel_scene_destroy(struct SurfelScene *scene);
+SurfelResult surfel_scene_ball_named(const struct SurfelScene *scene, const char *name, double *center, double *radius);
+
+/**
+ * Tells the name of an object of splats, as `surfel_prepared_scene_object_name` does.
+ */
+SurfelResult surfel_scene_object_name(const struct SurfelScene *scene, uint64_t object, char *name, uint64_t capacity, uint64_t *length);
+
+/**
+ * Tells the splats of an object: `splats` gets their count, their arrays, and whether they are `closed`; as they would be given to `surfel_scene_add_splats`, but for
+ * name, ε, room and clip curves. The arrays are the scene's, and stay as they are until it is changed or destroyed; colors that are all the same are one.
+ */
+SurfelResult surfel_scene_object_splats(const struct SurfelScene *scene,
+                                        uint64_t object,
+                                        struct SurfelSplats *splats);
+
+/**
+ * Copies what is cut off the splats of an object, from number `first` on, to `count` places.
+ */
+SurfelResult surfel_scene_object_clips(const struct SurfelScene *scene,
+                                       uint64_t object,
+                                       uint64_t first,
+                                       uint64_t count,
+                                       struct SurfelClip *clips);
 
 /**
  * Adds an object of splats with its levels of detail; its arrays are copied. For numbers of objects it is behind all objects of splats alone, and before those of triangles.
@@ -1724,6 +2389,86 @@ SurfelResult surfel_scene_add_mesh(struct SurfelScene *scene, const struct Surfe
  * Gives a mesh of the scene levels of detail; its arrays are copied.
  */
 SurfelResult surfel_scene_add_hybrid_levels(struct SurfelScene *scene, const struct SurfelHybridLevels *levels);
+
+/**
+ * Adds what a file holds, as `surfel render` shows it: splats, a mesh or points of any format that the library was built with, or all
+ * objects and lights of a scene file (`.toml`). `path` is UTF-8; on Unix any bytes that are a path. Files that a file names are opened in
+ * its folder or below.
+ */
+SurfelResult surfel_scene_add_file(struct SurfelScene *scene, const char *path);
+
+/**
+ * The same, read as `options` say and drawn as `description` says; both may be NULL. A scene file describes its objects itself:
+ * `description` is NULL then.
+ */
+SurfelResult surfel_scene_add_file_as(struct SurfelScene *scene,
+                                      const char *path,
+                                      const struct SurfelLoadOptions *options,
+                                      const struct SurfelDescription *description);
+
+/**
+ * The same of a file of `count` bytes that is in memory, such as a part of an archive. `name` is its name in messages, and its ending tells the format where
+ * the content leaves that open. No other file is opened, and it is no scene file.
+ */
+SurfelResult surfel_scene_add_file_of_memory(struct SurfelScene *scene,
+                                             const char *name,
+                                             const uint8_t *bytes,
+                                             uint64_t count,
+                                             const struct SurfelLoadOptions *options,
+                                             const struct SurfelDescription *description);
+
+/**
+ * Adds what `description` makes of a mesh: splats at its vertices or spread over it, its triangles, or both. NULL: what shows it best. Arrays are copied. `listener` may be NULL.
+ */
+SurfelResult surfel_scene_add_mesh_as(struct SurfelScene *scene,
+                                      const struct SurfelMesh *mesh,
+                                      const struct SurfelDescription *description,
+                                      const struct SurfelListener *listener);
+
+/**
+ * Adds the splats of points, which close the surface that they lie on. Of `description`, which may be NULL, name, place, color, alpha and ε count; points have no triangles. Arrays are copied. `listener` may be NULL.
+ */
+SurfelResult surfel_scene_add_points(struct SurfelScene *scene,
+                                     const struct SurfelPoints *points,
+                                     const struct SurfelDescription *description,
+                                     const struct SurfelListener *listener);
+
+/**
+ * Adds a mesh as splats that are cut at its sharp edges, one for each triangle or fewer. The mesh must be a surface: each edge of one triangle or two, which pass it in opposite
+ * directions. `options` may be NULL. Arrays are copied.
+ */
+SurfelResult surfel_scene_add_sharp_mesh(struct SurfelScene *scene,
+                                         const struct SurfelMesh *mesh,
+                                         const struct SurfelSharp *options);
+
+/**
+ * Writes the splats of an object as a PLY file, with clip curves and whether they are `closed`, from which `surfel_scene_add_file` reads the same ones; those that can't be drawn, too. `up`, three numbers, is the direction
+ * that is up, which the file then tells; NULL: it does not. `path` as in `surfel_scene_add_file`; `listener` may be NULL.
+ */
+SurfelResult surfel_scene_save_splats(const struct SurfelScene *scene,
+                                      uint64_t object,
+                                      const char *path,
+                                      const double *up,
+                                      const struct SurfelListener *listener);
+
+/**
+ * Writes a PNG of 8 bits a channel: sRGB bytes row by row from the top left, with red, green and blue where `channels` is 3, and straight alpha where it is 4.
+ */
+SurfelResult surfel_save_png(const char *path,
+                             uint32_t width,
+                             uint32_t height,
+                             uint32_t channels,
+                             const uint8_t *pixels);
+
+/**
+ * Writes an OpenEXR file of 32-bit floats, without loss: all channels of a pixel together, row by row from the top left. `channels` leads to their names, such as `R`, `G`, `B`, `A` or `Z`.
+ */
+SurfelResult surfel_save_exr(const char *path,
+                             uint32_t width,
+                             uint32_t height,
+                             const char *const *channels,
+                             uint32_t channelCount,
+                             const float *values);
 
 /**
  * Gives a scene on the device other lights, each by words as `surfel_scene_add_light` has them, at most 16; none: a white one at the eye.
@@ -1755,6 +2500,19 @@ SurfelResult surfel_dynamic_create(const struct SurfelRenderer *renderer,
  * bounds, radius and overlap may change. No other thread may use the scene meanwhile.
  */
 SurfelResult surfel_dynamic_set(struct SurfelPreparedScene *scene, const struct SurfelDynamicSplats *splats);
+
+/**
+ * Tells the shape of a disk as it lies in the buffer of shapes: `shape` gets 8 numbers. `center` is counted from `origin`, `normal` is a unit vector.
+ */
+SurfelResult surfel_dynamic_shape(const float *center,
+                                  float radius,
+                                  const float *normal,
+                                  float *shape);
+
+/**
+ * Tells a linear color with its alpha as it lies in the buffer of colors: `packed` gets 4 numbers.
+ */
+SurfelResult surfel_dynamic_color(const float *rgba, uint16_t *packed);
 
 /**
  * Tells the buffers of such splats: usage `VK_BUFFER_USAGE_STORAGE_BUFFER_BIT` and `VK_BUFFER_USAGE_TRANSFER_DST_BIT`. They are the scene's.
@@ -1845,6 +2603,16 @@ SurfelResult surfel_settings_create(struct SurfelSettings **settings);
  * `background` have no effect: the frame's size and the host's picture take their place.
  */
 SurfelResult surfel_settings_set(struct SurfelSettings *settings, const char *name, const char *value);
+
+/**
+ * Tells the value of one, by the words that would set it: how many bytes they have in `length`, and of these, and a closing zero, at most `capacity` in `value`, the last one a zero; `value` may be NULL where
+ * `capacity` is 0.
+ */
+SurfelResult surfel_settings_get(const struct SurfelSettings *settings,
+                                 const char *name,
+                                 char *value,
+                                 uint64_t capacity,
+                                 uint64_t *length);
 
 /**
  * Destroys settings; NULL is nothing.
@@ -1952,6 +2720,68 @@ SurfelResult surfel_pick_read(const struct SurfelPick *pick,
  * Destroys what a look at a pixel has; NULL is nothing. It is freed when the epoch that is recorded now is done.
  */
 void surfel_pick_destroy(struct SurfelPick *pick);
+
+/**
+ * Fills a camera that shows all of a ball (`surfel_scene_ball`) in a picture of this size, looking along -z with +y up. `fovYRad` is its vertical field of view; 0: 45 degrees.
+ */
+SurfelResult surfel_camera_fit(const double *center,
+                               double radius,
+                               uint32_t width,
+                               uint32_t height,
+                               double fovYRad,
+                               struct SurfelCamera *camera);
+
+/**
+ * Opens a device of our own: the loader of Vulkan is looked for by name. `info` may be NULL. Where no device will do, or there is no loader, the answer is `SURFEL_RESULT_NO_DEVICE`.
+ */
+SurfelResult surfel_headless_create(const struct SurfelHeadlessInfo *info,
+                                    struct SurfelHeadless **headless);
+
+/**
+ * Tells the name of the device, as `surfel_prepared_scene_object_name` does.
+ */
+SurfelResult surfel_headless_device_name(const struct SurfelHeadless *headless, char *name, uint64_t capacity, uint64_t *length);
+
+/**
+ * Gives the device, for `surfel_device_memory` and `surfel_device_memory_report`: its epochs are ended, and told to be done, by `surfel_headless_render` and `surfel_headless_prepare` alone. To be destroyed as any other.
+ */
+SurfelResult surfel_headless_device(const struct SurfelHeadless *headless,
+                                    struct SurfelDevice **device);
+
+/**
+ * Tells how many messages the validation layer has given so far, of a device that it watches.
+ */
+SurfelResult surfel_headless_messages(const struct SurfelHeadless *headless, uint64_t *count);
+
+/**
+ * Brings a scene to the device, and waits for that; `scene` may be destroyed at once. `listener` may be NULL.
+ */
+SurfelResult surfel_headless_prepare(const struct SurfelHeadless *headless,
+                                     const struct SurfelScene *scene,
+                                     const struct SurfelListener *listener,
+                                     struct SurfelPreparedScene **prepared);
+
+/**
+ * Draws a picture, and waits for it. Where this fails, `picture` is as it was, and what it led to before is gone.
+ */
+SurfelResult surfel_headless_render(struct SurfelHeadless *headless,
+                                    const struct SurfelHeadlessFrame *frame,
+                                    struct SurfelPicture *picture);
+
+/**
+ * Tells what each pass cost of the picture that was drawn last, as `surfel_view_measured` does.
+ */
+SurfelResult surfel_headless_measured(const struct SurfelHeadless *headless, SurfelPassMeasured each, void *user, double *spanSecs);
+
+/**
+ * Gives back the memory that pictures are drawn in, of a program that draws none for a while.
+ */
+SurfelResult surfel_headless_forget(struct SurfelHeadless *headless);
+
+/**
+ * Destroys a device of our own; NULL is nothing. Scenes that were brought there may be destroyed later.
+ */
+void surfel_headless_destroy(struct SurfelHeadless *headless);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -2,12 +2,20 @@
 
 use std::ffi::c_void;
 
-use surfel::{ash::vk, embed::DynamicSplats, glam::DVec3};
+use surfel::{
+    ash::vk,
+    embed::{
+        DynamicSplats,
+        dynamic::{color, disk},
+    },
+    glam::DVec3,
+};
 
 use crate::{
     handle::{Out, Place, get, get_mut},
     renderer::{SurfelPreparedScene, SurfelRenderer},
     result::{Failure, SurfelResult, guard},
+    splats::array,
     structs::{Struct, SurfelStructureType, read},
 };
 
@@ -91,6 +99,41 @@ pub unsafe extern "C" fn surfel_dynamic_set(
         // SAFETY: the contract of the header.
         let (scene, splats) = unsafe { (get_mut(scene, "scene")?, read(splats, "splats")?) };
         Ok(scene.0.set_dynamic(&splats_of(&splats))?)
+    })
+}
+
+/// Tells the shape of a disk as it lies in the buffer of shapes: `shape` gets 8 numbers. `center` is counted from `origin`, `normal` is a unit vector.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_dynamic_shape(
+    center: *const f32,
+    radius: f32,
+    normal: *const f32,
+    shape: *mut f32,
+) -> SurfelResult {
+    guard("surfel_dynamic_shape", || {
+        // SAFETY: the contract of the header.
+        let (center, normal, shape) = unsafe {
+            (
+                array(center.cast::<[f32; 3]>(), 1, "center")?[0],
+                array(normal.cast::<[f32; 3]>(), 1, "normal")?[0],
+                Place::new(shape.cast::<[f32; 8]>(), "shape")?,
+            )
+        };
+        shape.write(disk(center.into(), radius, normal.into()));
+        Ok(())
+    })
+}
+
+/// Tells a linear color with its alpha as it lies in the buffer of colors: `packed` gets 4 numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_dynamic_color(rgba: *const f32, packed: *mut u16) -> SurfelResult {
+    guard("surfel_dynamic_color", || {
+        // SAFETY: the contract of the header.
+        let (rgba, packed) = unsafe {
+            (array(rgba.cast::<[f32; 4]>(), 1, "rgba")?[0], Place::new(packed.cast::<[u16; 4]>(), "packed")?)
+        };
+        packed.write(color(rgba));
+        Ok(())
     })
 }
 

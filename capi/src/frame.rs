@@ -203,13 +203,7 @@ unsafe fn with_scenes<'a>(
     let was = camera(matrices_before);
     let camera = camera([given.view_from_world, given.clip_from_view]);
     let moved = matrices_before.as_flattened().iter().any(|number| *number != 0.0);
-    let profile = match given.measures {
-        SURFEL_MEASURE_NOTHING => (given.timed != vk::FALSE).then_some(Profile::Times),
-        SURFEL_MEASURE_FRAME => Some(Profile::Frame),
-        SURFEL_MEASURE_TIMES => Some(Profile::Times),
-        SURFEL_MEASURE_COUNTS => Some(Profile::Counts),
-        other => return Err(Failure::invalid(format!("measures is {other}: expected a SURFEL_MEASURE_*"))),
-    };
+    let profile = measures_of(given.measures, (given.timed != vk::FALSE).then_some(Profile::Times))?;
     then(&ViewFrame {
         scenes,
         camera: &camera,
@@ -225,6 +219,17 @@ unsafe fn with_scenes<'a>(
         },
         profile,
     })
+}
+
+/// What is measured; `nothing`: where C says nothing.
+pub fn measures_of(given: u32, nothing: Option<Profile>) -> Result<Option<Profile>> {
+    match given {
+        SURFEL_MEASURE_NOTHING => Ok(nothing),
+        SURFEL_MEASURE_FRAME => Ok(Some(Profile::Frame)),
+        SURFEL_MEASURE_TIMES => Ok(Some(Profile::Times)),
+        SURFEL_MEASURE_COUNTS => Ok(Some(Profile::Counts)),
+        other => Err(Failure::invalid(format!("measures is {other}: expected a SURFEL_MEASURE_*"))),
+    }
 }
 
 /// What there is one of for each scene; nothing where it is not given.

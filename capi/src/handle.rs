@@ -91,3 +91,23 @@ pub unsafe fn text<'a>(text: *const c_char, name: &str) -> Result<&'a str> {
     let bytes = unsafe { CStr::from_ptr(text) };
     bytes.to_str().map_err(|_| Failure::invalid(format!("{name} is not UTF-8")))
 }
+
+/// Tells a text: how many bytes it has, and of these, with a closing zero, as many as there is room for.
+///
+/// # Safety
+/// Both pointers are NULL, not aligned, or may be written, `to` for as many bytes as it is said to have room for.
+pub unsafe fn told(own: &str, (to, capacity): (*mut c_char, u64), length: *mut u64) -> Result<()> {
+    // SAFETY: this function's contract.
+    unsafe { Place::new(length, "length") }?.write(own.len() as u64);
+    let Some(most) = capacity.checked_sub(1) else { return Ok(()) };
+    if to.is_null() {
+        return Err(null("name"));
+    }
+    let count = own.len().min(usize::try_from(most).unwrap_or(usize::MAX));
+    // SAFETY: this function's contract: there is room for `capacity`, which is more than `count`.
+    unsafe {
+        to.copy_from_nonoverlapping(own.as_ptr().cast(), count);
+        to.add(count).write(0);
+    }
+    Ok(())
+}

@@ -19,10 +19,22 @@ mod device;
 mod scene;
 mod splats;
 
+mod contents;
+
 mod levels;
 mod mesh;
 
 mod hybrid_levels;
+
+mod listener;
+
+mod description;
+
+mod load;
+
+mod made;
+
+mod save;
 
 mod lights;
 mod names;
@@ -40,6 +52,10 @@ mod measured;
 
 mod ahead;
 mod pick;
+
+mod camera;
+
+mod headless;
 
 #[cfg(test)]
 mod without_device;

@@ -6,7 +6,7 @@ use surfel::embed::PassFigures;
 
 use crate::{
     handle::{Place, get, null},
-    result::{SurfelResult, guard},
+    result::{Result, SurfelResult, guard},
     view::SurfelView,
 };
 
@@ -67,26 +67,44 @@ pub unsafe extern "C" fn surfel_view_measured(
         // SAFETY: the contract of the header, here and below.
         let view = unsafe { get(view, "view") }?;
         let each = each.ok_or_else(|| null("each"))?;
-        let tell = |pass: PassFigures<'_>| {
-            let name = in_place(pass.name);
-            let figures = SurfelPassFigures {
-                name: name.as_ptr().cast(),
-                secs: pass.secs.unwrap_or(-1.0),
-                vertices: pass.counts.map_or(u64::MAX, |counts| counts.vertices),
-                fragments: pass.counts.map_or(u64::MAX, |counts| counts.fragments),
-                invocations: pass.invocations.unwrap_or(u64::MAX),
-            };
-            // SAFETY: as above.
-            unsafe { each(user, &raw const figures) };
-        };
+        // SAFETY: as above.
+        let tell = |pass: PassFigures<'_>| unsafe { tell(each, user, pass) };
         // SAFETY: as above: the frame has finished.
         let span = unsafe { view.view.each_pass(tell) }?;
-        if !span_secs.is_null() {
-            // SAFETY: as above.
-            unsafe { Place::new(span_secs, "spanSecs") }?.write(span.unwrap_or(-1.0));
-        }
-        Ok(())
+        // SAFETY: as above.
+        unsafe { tell_span(span_secs, span) }
     })
+}
+
+/// Tells one of C's functions of a pass.
+///
+/// # Safety
+/// The contract of the header.
+pub unsafe fn tell(
+    each: unsafe extern "C" fn(*mut c_void, *const SurfelPassFigures),
+    user: *mut c_void,
+    pass: PassFigures<'_>,
+) {
+    let name = in_place(pass.name);
+    let figures = SurfelPassFigures {
+        name: name.as_ptr().cast(),
+        secs: pass.secs.unwrap_or(-1.0),
+        vertices: pass.counts.map_or(u64::MAX, |counts| counts.vertices),
+        fragments: pass.counts.map_or(u64::MAX, |counts| counts.fragments),
+        invocations: pass.invocations.unwrap_or(u64::MAX),
+    };
+    // SAFETY: this function's contract.
+    unsafe { each(user, &raw const figures) };
+}
+
+/// # Safety
+/// `span_secs` is NULL, not aligned, or may be written.
+pub unsafe fn tell_span(span_secs: *mut f64, span: Option<f64>) -> Result<()> {
+    if !span_secs.is_null() {
+        // SAFETY: this function's contract.
+        unsafe { Place::new(span_secs, "spanSecs") }?.write(span.unwrap_or(-1.0));
+    }
+    Ok(())
 }
 
 /// A name as C has it, without memory of the heap; none of ours is longer.

@@ -6,14 +6,14 @@ use surfel::{
     ash::vk,
     geometry::shaded_mesh,
     glam::{DVec3, Vec3},
-    scene::{Colors, Mesh, MeshObject},
+    scene::{Mesh, MeshObject},
 };
 
 use crate::{
     handle::{get_mut, text},
     result::{Failure, Result, SurfelResult, guard},
     scene::SurfelScene,
-    splats::copied,
+    splats::{colors_of, copied},
     structs::{Struct, SurfelStructureType, read},
 };
 
@@ -58,9 +58,11 @@ unsafe impl Struct for SurfelMesh {
     }
 }
 
+/// A mesh of C's, and what it is called.
+///
 /// # Safety
 /// Pointers are NULL or lead to as much as the struct says.
-unsafe fn object(given: &SurfelMesh) -> Result<MeshObject> {
+pub unsafe fn mesh_of(given: &SurfelMesh) -> Result<(String, Mesh)> {
     let count = given.vertex_count;
     // SAFETY: this function's contract, here and below.
     let positions = unsafe { copied(given.positions.cast(), count, "positions", DVec3::from_array) }?;
@@ -69,18 +71,8 @@ unsafe fn object(given: &SurfelMesh) -> Result<MeshObject> {
         // SAFETY: as above.
         false => Some(unsafe { copied(given.normals.cast(), count, "normals", Vec3::from_array) }?),
     };
-    let color_count = if given.colors.is_null() { 0 } else { given.color_count };
-    if ![0, 1, count].contains(&color_count) || (color_count == 0 && !given.colors.is_null() && count > 0) {
-        let text = format!("colorCount is {}: expected 1 or {count}", given.color_count);
-        return Err(Failure::invalid(text));
-    }
     // SAFETY: as above.
-    let colors = unsafe { copied(given.colors.cast(), color_count, "colors", |color: [f32; 4]| color) }?;
-    let colors = match colors[..] {
-        [] => Colors::unknown(),
-        [color] => Colors::Uniform(color),
-        _ => Colors::Each(colors),
-    };
+    let colors = unsafe { colors_of(given.colors, given.color_count, count) }?;
     // SAFETY: as above.
     let triangles =
         unsafe { copied(given.triangles.cast(), given.triangle_count, "triangles", |corners| corners) }?;
@@ -94,8 +86,7 @@ unsafe fn object(given: &SurfelMesh) -> Result<MeshObject> {
         // SAFETY: as above.
         false => unsafe { text(given.name, "name") }?,
     };
-    let (mesh, _) = shaded_mesh(Mesh { positions, normals, colors, triangles });
-    Ok(MeshObject { name: name.to_owned(), mesh, closed: given.closed != vk::FALSE })
+    Ok((name.to_owned(), Mesh { positions, normals, colors, triangles }))
 }
 
 /// Adds an object of triangles; its arrays are copied. For `surfel_update` it is behind all objects of splats.
@@ -108,7 +99,9 @@ pub unsafe extern "C" fn surfel_scene_add_mesh(
         // SAFETY: the contract of the header.
         let (scene, mesh) = unsafe { (get_mut(scene, "scene")?, read(mesh, "mesh")?) };
         // SAFETY: the contract of the header.
-        scene.0.meshes.push(unsafe { object(&mesh) }?);
+        let (name, own) = unsafe { mesh_of(&mesh) }?;
+        let (own, _) = shaded_mesh(own);
+        scene.0.meshes.push(MeshObject { name, mesh: own, closed: mesh.closed != vk::FALSE });
         Ok(())
     })
 }

@@ -3,7 +3,7 @@
 use std::ffi::c_char;
 
 use crate::{
-    handle::{Place, get, null},
+    handle::{get, told},
     renderer::SurfelPreparedScene,
     result::{Failure, Result, SurfelResult, guard},
 };
@@ -19,21 +19,11 @@ pub unsafe extern "C" fn surfel_prepared_scene_object_name(
     length: *mut u64,
 ) -> SurfelResult {
     guard("surfel_prepared_scene_object_name", || {
-        // SAFETY: the contract of the header, here and below.
-        let (scene, length) = unsafe { (get(scene, "scene")?, Place::new(length, "length")?) };
-        let own = named(&scene.0.objects, object)?.as_bytes();
-        length.write(own.len() as u64);
-        let Some(most) = capacity.checked_sub(1) else { return Ok(()) };
-        if name.is_null() {
-            return Err(null("name"));
-        }
-        let count = own.len().min(usize::try_from(most).unwrap_or(usize::MAX));
-        // SAFETY: as above: there is room for `capacity`, which is more than `count`.
+        // SAFETY: the contract of the header.
         unsafe {
-            name.copy_from_nonoverlapping(own.as_ptr().cast(), count);
-            name.add(count).write(0);
+            let scene = get(scene, "scene")?;
+            told(named(&scene.0.objects, object)?, (name, capacity), length)
         }
-        Ok(())
     })
 }
 

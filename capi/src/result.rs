@@ -59,6 +59,12 @@ impl Failure {
     pub fn invalid(text: impl Into<String>) -> Self {
         Self { code: SurfelResult::InvalidArgument, text: text.into() }
     }
+
+    #[cfg(not(feature = "files"))]
+    pub fn without_files() -> Self {
+        let text = "the library was built without the feature 'files'".to_owned();
+        Self { code: SurfelResult::Unsupported, text }
+    }
 }
 
 impl From<Error> for Failure {

@@ -10,9 +10,9 @@ use surfel::{
 };
 
 use crate::{
-    handle::{Out, Place, destroy, get, get_mut, text},
+    handle::{Out, destroy, get_mut, text},
     lights::light as light_of,
-    result::{Failure, Result, SurfelResult, guard},
+    result::{Result, SurfelResult, guard},
     rooms::room,
     settings::set,
     splats::{SurfelSplats, array, object},
@@ -139,12 +139,21 @@ pub unsafe extern "C" fn surfel_scene_add_splats(
 }
 
 /// `epsilons`: as a length, and in radii.
-fn add(scene: &mut Scene, object: Object, (auto, epsilons): (bool, [f64; 2])) -> Result<()> {
+pub fn add(scene: &mut Scene, object: Object, epsilons: (bool, [f64; 2])) -> Result<()> {
+    let epsilon = epsilon_of(epsilons)?;
+    scene.epsilons.resize(scene.objects.len(), None);
+    scene.epsilons.push(epsilon);
+    scene.objects.push(object);
+    Ok(())
+}
+
+/// The ε that an object has of its own; `epsilons`: as a length, and in radii.
+pub fn epsilon_of((auto, epsilons): (bool, [f64; 2])) -> Result<Option<Epsilon>> {
     if let Some(wrong) = epsilons.iter().find(|epsilon| !(**epsilon >= 0.0 && epsilon.is_finite())) {
         let problem = format!("{wrong}: expected a finite number above 0, or 0 for that of the settings");
         return Err(Error::option("epsilon", problem).into());
     }
-    let epsilon = match epsilons {
+    Ok(match epsilons {
         [0.0, 0.0] => auto.then_some(Epsilon::Auto),
         _ if auto => {
             let problem = "autoEpsilon, and a number: expected one of both";
@@ -156,64 +165,23 @@ fn add(scene: &mut Scene, object: Object, (auto, epsilons): (bool, [f64; 2])) ->
             let problem = format!("{length}, and {radii} radii: expected one of both");
             return Err(Error::option("epsilon", problem).into());
         }
-    };
-    scene.epsilons.resize(scene.objects.len(), None);
-    scene.epsilons.push(epsilon);
-    scene.objects.push(object);
-    Ok(())
-}
-
-/// Adds what a file holds, as `surfel render` shows it: splats, a mesh or points of any format that the library was built with, or all
-/// objects and lights of a scene file (`.toml`). `path` is UTF-8; on Unix any bytes that are a path. Files that a file names are opened in
-/// its folder or below.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn surfel_scene_add_file(scene: *mut SurfelScene, path: *const c_char) -> SurfelResult {
-    guard("surfel_scene_add_file", || {
-        // SAFETY: the contract of the header, here and below.
-        let scene = unsafe { get_mut(scene, "scene") }?;
-        if path.is_null() {
-            return Err(crate::handle::null("path"));
-        }
-        // SAFETY: as above.
-        add_file(&mut scene.0, unsafe { std::ffi::CStr::from_ptr(path) })
     })
 }
 
-#[cfg(feature = "files")]
-fn add_file(scene: &mut Scene, path: &std::ffi::CStr) -> Result<()> {
-    use surfel::{
-        compose::{build, compose},
-        load::{LoadOptions, ObjectDescription, is_scene_file},
-    };
-
-    #[cfg(unix)]
-    let path =
-        std::path::Path::new(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(path.to_bytes()));
-    #[cfg(not(unix))]
-    let path = std::path::Path::new(path.to_str().map_err(|_| Failure::invalid("path is not UTF-8"))?);
-    let options = LoadOptions::default();
-    let file = match is_scene_file(path) {
-        true => compose(path, &options, &())?.scene,
-        false => build(&[ObjectDescription::of_file(path)], Vec::new(), &options, &(), &mut |_| {})?.0,
-    };
-    scene.epsilons.resize(scene.objects.len(), None);
-    scene.epsilons.extend(file.epsilons);
-    scene.objects.extend(file.objects);
-    scene.leveled.extend(file.leveled);
-    let before = scene.meshes.len();
-    scene.hybrids.extend(file.hybrids.into_iter().map(|mut hybrid| {
-        hybrid.mesh += before;
-        hybrid
-    }));
-    scene.meshes.extend(file.meshes);
-    scene.lights.extend(file.lights);
-    Ok(())
-}
-
-#[cfg(not(feature = "files"))]
-fn add_file(_scene: &mut Scene, _path: &std::ffi::CStr) -> Result<()> {
-    let text = "the library was built without the feature 'files'".to_owned();
-    Err(Failure { code: SurfelResult::Unsupported, text })
+/// A map of C's, of four columns.
+///
+/// # Safety
+/// `world_from_object` is NULL or leads to 16 numbers.
+pub unsafe fn affine(world_from_object: *const f64) -> Result<DAffine3> {
+    // SAFETY: this function's contract.
+    let matrix = unsafe { array(world_from_object.cast::<[f64; 16]>(), 1, "worldFromObject") }?[0];
+    let matrix = DMat4::from_cols_array(&matrix);
+    let map = DAffine3::from_mat4(matrix);
+    if matrix.row(3) != DVec4::W || !is_invertible(&map) {
+        let problem = "expected an affine map that can be undone";
+        return Err(Error::option("worldFromObject", problem).into());
+    }
+    Ok(map)
 }
 
 /// Moves all that is in a scene so far, but its lights and lengths of ε, by a matrix of four columns: turns, scales, mirrors or shears it, each splat and
@@ -228,15 +196,10 @@ pub unsafe extern "C" fn surfel_scene_transform(
         // SAFETY: the contract of the header, here and below.
         let scene = &mut unsafe { get_mut(scene, "scene") }?.0;
         // SAFETY: as above.
-        let matrix = unsafe { array(world_from_object.cast::<[f64; 16]>(), 1, "worldFromObject") }?[0];
-        let matrix = DMat4::from_cols_array(&matrix);
-        let map = DAffine3::from_mat4(matrix);
-        let refused = |problem: &str| Err(Error::option("worldFromObject", problem).into());
-        if matrix.row(3) != DVec4::W || !is_invertible(&map) {
-            return refused("expected an affine map that can be undone");
-        }
+        let map = unsafe { affine(world_from_object) }?;
         if scene.has_levels() {
-            return refused("the scene has levels of detail, which are where their file says");
+            let problem = "the scene has levels of detail, which are where their file says";
+            return Err(Error::option("worldFromObject", problem).into());
         }
         for object in &mut scene.objects {
             object.splats = std::mem::replace(&mut object.splats, Splats::none()).transformed(&map);
@@ -244,26 +207,6 @@ pub unsafe extern "C" fn surfel_scene_transform(
         for object in &mut scene.meshes {
             object.mesh = object.mesh.clone().transformed(&map);
         }
-        Ok(())
-    })
-}
-
-/// Tells a ball around all that is in a scene, for a camera: `center` gets three coordinates.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn surfel_scene_ball(
-    scene: *const SurfelScene,
-    center: *mut f64,
-    radius: *mut f64,
-) -> SurfelResult {
-    guard("surfel_scene_ball", || {
-        // SAFETY: the contract of the header.
-        let (scene, center, radius) = unsafe {
-            let center = Place::new(center.cast::<[f64; 3]>(), "center")?;
-            (get(scene, "scene")?, center, Place::new(radius, "radius")?)
-        };
-        let ball = scene.0.ball().ok_or_else(|| Failure::invalid("there is nothing in the scene"))?;
-        center.write(ball.center.to_array());
-        radius.write(ball.radius);
         Ok(())
     })
 }

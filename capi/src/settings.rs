@@ -8,7 +8,7 @@ use surfel::{
 };
 
 use crate::{
-    handle::{Out, destroy, get_mut, text},
+    handle::{Out, destroy, get, get_mut, text, told},
     result::{Result, SurfelResult, guard},
 };
 
@@ -40,13 +40,36 @@ pub unsafe extern "C" fn surfel_settings_set(
     })
 }
 
+/// Tells the value of one, by the words that would set it: how many bytes they have in `length`, and of these, and a closing zero, at most `capacity` in `value`, the last one a zero; `value` may be NULL where
+/// `capacity` is 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_settings_get(
+    settings: *const SurfelSettings,
+    name: *const c_char,
+    value: *mut c_char,
+    capacity: u64,
+    length: *mut u64,
+) -> SurfelResult {
+    guard("surfel_settings_get", || {
+        // SAFETY: the contract of the header, here and below.
+        let (settings, name) = unsafe { (get(settings, "settings")?, text(name, "name")?) };
+        let words = (setting::<Settings>(name)?.get)(&settings.0);
+        // SAFETY: as above.
+        unsafe { told(&words, (value, capacity), length) }
+    })
+}
+
+/// The field of a table that is called so.
+fn setting<T: OptionTable>(name: &str) -> Result<&'static Setting<T>> {
+    T::OPTIONS.iter().find(|setting| setting.name == name).ok_or_else(|| {
+        let names: Vec<_> = T::OPTIONS.iter().map(|setting| setting.name).collect();
+        Error::option(name, format!("expected one of {}", names.join(", "))).into()
+    })
+}
+
 /// Sets a field of a table by words; what is refused leaves it as it was.
 pub fn set<T: OptionTable + Clone>(table: &mut T, name: &str, value: &str) -> Result<()> {
-    let Some(setting) = T::OPTIONS.iter().find(|setting| setting.name == name) else {
-        let names: Vec<_> = T::OPTIONS.iter().map(|setting| setting.name).collect();
-        return Err(Error::option(name, format!("expected one of {}", names.join(", "))).into());
-    };
-    let Setting { set, check, .. } = setting;
+    let Setting { set, check, .. } = setting::<T>(name)?;
     let mut changed = table.clone();
     let done = set(&mut changed, value).map_err(|problem| format!("{value}: {problem}"));
     done.and_then(|()| check(&changed)).map_err(|problem| Error::option(name, problem))?;

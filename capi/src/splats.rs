@@ -46,6 +46,22 @@ pub struct SurfelClip {
 }
 
 impl SurfelClip {
+    /// One of ours, as C has it.
+    pub fn of(clip: &Clip) -> Self {
+        let none = SurfelClipCurve { start_rad: 0.0, end_rad: 0.0, middle: [0.0; 2], weight: 0.0 };
+        let curve = |of: Option<&ClipCurve>| {
+            of.map_or(none, |ClipCurve { start_rad, end_rad, middle, weight }| SurfelClipCurve {
+                start_rad: *start_rad,
+                end_rad: *end_rad,
+                middle: middle.to_array(),
+                weight: *weight,
+            })
+        };
+        let curves = clip.curves();
+        let curve_count = curves.iter().flatten().count() as u32;
+        Self { curve_count, both: matches!(clip, Clip::Both(..)).into(), curves: curves.map(curve) }
+    }
+
     fn clip(&self) -> Result<Clip> {
         let curve = |SurfelClipCurve { start_rad, end_rad, middle, weight }: SurfelClipCurve| ClipCurve {
             start_rad,
@@ -218,6 +234,24 @@ pub unsafe fn object(given: &SurfelSplats) -> Result<Object> {
         false => unsafe { text(given.name, "name") }?,
     };
     Ok(Object { name: name.to_owned(), splats, closed: given.closed != vk::FALSE })
+}
+
+/// Colors of C's, of as many as there are, of all alike, or none.
+///
+/// # Safety
+/// `from` is NULL or leads to `color_count` of them.
+pub unsafe fn colors_of(from: *const f32, color_count: u64, count: u64) -> Result<Colors> {
+    let given = if from.is_null() { 0 } else { color_count };
+    if ![0, 1, count].contains(&given) || (given == 0 && !from.is_null() && count > 0) {
+        return Err(Failure::invalid(format!("colorCount is {color_count}: expected 1 or {count}")));
+    }
+    // SAFETY: this function's contract.
+    let colors = unsafe { copied(from.cast(), given, "colors", |color: [f32; 4]| color) }?;
+    Ok(match colors[..] {
+        [] => Colors::unknown(),
+        [color] => Colors::Uniform(color),
+        _ => Colors::Each(colors),
+    })
 }
 
 /// An array of C's.

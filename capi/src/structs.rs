@@ -50,6 +50,28 @@ pub enum SurfelStructureType {
     Levels = 18,
     /// `SurfelHybridLevels`.
     HybridLevels = 19,
+    /// `SurfelListener`.
+    Listener = 20,
+    /// `SurfelLoadOptions`.
+    LoadOptions = 21,
+    /// `SurfelDescription`.
+    Description = 22,
+    /// `SurfelPoints`.
+    Points = 23,
+    /// `SurfelSharp`.
+    Sharp = 24,
+    /// `SurfelSceneContents`.
+    SceneContents = 25,
+    /// `SurfelCamera`.
+    Camera = 26,
+    /// `SurfelHeadlessInfo`.
+    HeadlessInfo = 27,
+    /// `SurfelHeadlessFrame`.
+    HeadlessFrame = 28,
+    /// `SurfelPicture`.
+    Picture = 29,
+    /// `SurfelMemoryNeeds`.
+    MemoryNeeds = 30,
 }
 
 /// No struct is larger in any version: a size beyond is none that a header gave it.

@@ -5,13 +5,17 @@ use std::{ffi::CStr, mem::MaybeUninit, ptr::null_mut};
 use surfel::{Scene, ash::vk, scene::Epsilon};
 
 use crate::{
+    contents::{
+        SurfelSceneContents, surfel_scene_ball, surfel_scene_bounds, surfel_scene_contents,
+        surfel_scene_object_clips, surfel_scene_object_splats,
+    },
     levels::{SurfelErrorBall, SurfelLevels, surfel_scene_add_levels},
     mesh::{SurfelMesh, surfel_scene_add_mesh},
     result::{SurfelResult, surfel_last_error},
     rooms::SurfelRoom,
     scene::{
-        SurfelScene, SurfelSceneInfo, surfel_scene_add_light, surfel_scene_add_splats, surfel_scene_ball,
-        surfel_scene_create, surfel_scene_destroy, surfel_scene_set, surfel_scene_transform,
+        SurfelScene, SurfelSceneInfo, surfel_scene_add_light, surfel_scene_add_splats, surfel_scene_create,
+        surfel_scene_destroy, surfel_scene_set, surfel_scene_transform,
     },
     settings::{surfel_settings_create, surfel_settings_destroy, surfel_settings_set},
     splats::{SurfelClip, SurfelClipCurve, SurfelSplats},
@@ -114,6 +118,7 @@ fn scenes_are_made_of_all_that_c_can_give_and_moved_and_measured() {
         assert_eq!(*epsilons, lengths);
         assert_eq!([objects.len(), rooms.len(), epsilons.len(), meshes.len()], [4, 1, 4, 1]);
         assert_eq!(objects[0].splats.positions[1].to_array(), [5.0, 8.0, 7.0]);
+        tells_what_it_holds(scene, &clips);
         assert_eq!(rooms[0].as_ref().map(|room| room.splats), Some(7));
         surfel_scene_destroy(scene);
     }
@@ -142,6 +147,33 @@ fn levels_come_as_arrays() {
         assert_eq!((*scene).0.leveled.len(), 1);
         surfel_scene_destroy(scene);
     }
+}
+
+/// Of the scene above.
+///
+/// # Safety
+/// A scene that was made, of no less.
+unsafe fn tells_what_it_holds(scene: *const SurfelScene, clips: &[SurfelClip; 3]) {
+    let (mut contents, mut least, mut most) = (plain::<SurfelSceneContents>(), [0.0; 3], [0.0; 3]);
+    let (mut told, mut others) = (plain::<SurfelSplats>(), [zeroed_clip(); 3]);
+    // SAFETY: this function's contract; and room for all that is told.
+    let (tangents, colors) = unsafe {
+        assert_eq!(surfel_scene_contents(scene, &mut contents), SurfelResult::Success, "{}", last());
+        let answer = surfel_scene_bounds(scene, least.as_mut_ptr(), most.as_mut_ptr());
+        assert_eq!(answer, SurfelResult::Success, "{}", last());
+        let answer = surfel_scene_object_splats(scene, 2, &mut told);
+        assert_eq!(answer, SurfelResult::Success, "{}", last());
+        let answer = surfel_scene_object_clips(scene, 2, 0, 3, others.as_mut_ptr());
+        assert_eq!(answer, SurfelResult::Success, "{}", last());
+        let tangents = std::slice::from_raw_parts(told.tangents_s.cast::<[f32; 3]>(), 3);
+        (tangents, std::slice::from_raw_parts(told.colors.cast::<[f32; 4]>(), told.color_count as usize))
+    };
+    assert_eq!([contents.objects, contents.meshes, contents.lights, contents.splats], [4, 1, 1, 9]);
+    assert!(least.iter().zip(most).all(|(least, most)| *least < most), "{least:?} {most:?}");
+    assert_eq!(tangents[0], [0.0, 1.0, 0.0]);
+    assert!(colors.len() == 1 && told.count == 3 && told.normals.is_null() && told.closed == vk::FALSE);
+    let counts = |clips: &[SurfelClip; 3]| clips.each_ref().map(|clip| clip.curve_count);
+    assert_eq!(counts(&others), counts(clips));
 }
 
 /// A struct of an older header lies in as much memory as that says, and not one byte more is read; of a newer one what is beyond must be zero.

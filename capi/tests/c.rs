@@ -124,6 +124,26 @@ fn wrong_use_has_codes_and_any_order_of_ends_is_sound() {
     run(Command::new(&program).args([&splats, &garbage]));
 }
 
+/// A picture of our own device is that of the same device in Rust, to the byte.
+#[test]
+fn a_program_without_a_device_reads_makes_saves_and_draws() {
+    let folder = TempDir::new().unwrap();
+    let (program, below) = (folder.child("alone"), folder.child("below"));
+    let [ply, png, exr, raw] = ["cube.ply", "a.png", "a.exr", "a.raw"].map(|name| folder.child(name));
+    fs::create_dir(&below).unwrap();
+    let scene_file = below.join("scene.toml");
+    fs::write(&scene_file, "[[object]]\nfile = \"../cube.ply\"\n").unwrap();
+    let mut cc = cc(&program);
+    let sources = ["alone.c", "models.c"].map(|name| root().join("capi/tests/c_programs").join(name));
+    cc.arg(header()).args(sources).arg(libraries().join("libsurfel_c.a"));
+    run(cc.args(["-lpthread", "-ldl", "-lm", "-lgcc_s"]));
+    run(Command::new(&program).args([&ply, &scene_file, &png, &exr, &raw]));
+    let by_rust = through_rust::headless::picture();
+    assert!(fs::read(&raw).unwrap() == by_rust.as_flattened(), "the same bytes");
+    assert!(fs::read(&png).unwrap() == surfel::save::png_bytes([96; 2], 4, by_rust.as_flattened()).unwrap());
+    assert!(fs::metadata(&exr).unwrap().len() > 1000);
+}
+
 /// Its structs have no padding, which later versions could not tell from members; and C++ takes it, too.
 #[test]
 fn the_header_stands_alone() {

@@ -18,7 +18,7 @@ use std::path::Path;
 
 pub use from_mesh::resampled;
 pub use memory::check_memory;
-pub use object::{BuiltObject, make, make_loaded, refuse_triangles};
+pub use object::{BuiltObject, make, make_loaded, make_model, refuse_triangles};
 pub use sharp::sharpened;
 pub use words::{finish, splats_kind};
 

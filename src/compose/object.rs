@@ -68,6 +68,15 @@ pub fn make_loaded(
     make_opened(opened, object, StepTimer { progress, steps: Vec::new() })
 }
 
+/// As [`make`], of a model that is in memory already. Messages call it as they would call the description's file.
+///
+/// # Errors
+/// As [`make`], but for those of a file.
+pub fn make_model(model: Model, object: &ObjectDescription, progress: &dyn Progress) -> Result<BuiltObject> {
+    let opened = Opened { model, name: name_of(object), notes: Vec::new(), file: None };
+    make_opened(opened, object, StepTimer { progress, steps: Vec::new() })
+}
+
 fn make_opened(opened: Opened, object: &ObjectDescription, mut work: StepTimer<'_>) -> Result<BuiltObject> {
     let Opened { mut model, name, mut notes, file } = opened;
     let beyond = beyond::lose(&mut model);

@@ -1,5 +1,7 @@
 //! The example's picture, drawn on the same engine through `surfel::embed`.
 
+pub mod headless;
+
 use std::path::Path;
 
 use libloading::{Library, Symbol};
