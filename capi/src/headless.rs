@@ -132,7 +132,7 @@ unsafe impl Struct for SurfelPicture {
     const TYPE: SurfelStructureType = SurfelStructureType::Picture;
 }
 
-/// Opens a device of our own: the loader of Vulkan is looked for by name. `info` may be NULL. Where no device will do, or there is no loader, the answer is `SURFEL_RESULT_NO_DEVICE`.
+/// Opens a device of our own: the loader of Vulkan is looked for by name. `info` may be NULL. Where no device will do, or there is no loader, the answer is `SURFEL_RESULT_NO_DEVICE`; of a name that none has, `SURFEL_RESULT_OPTION`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_headless_create(
     info: *const SurfelHeadlessInfo,

@@ -8,10 +8,10 @@ use crate::{
     error::{Error, Result},
     graph::{
         Block, ImageDesc as Wanted, ImageState, MemoryClass, MemoryNeed, ResourceDesc, Usage,
-        execute::{Blocks, FRAMES_OF_LATE, memory_need},
+        execute::{Blocks, FRAMES_OF_LATE, memory_need, requirements},
     },
     passes::host::{OBJECTS_FORMAT, SURFACE_DEPTH_FORMAT},
-    vk::{Device, Image, ImageDesc, Memory},
+    vk::{Device, Image, ImageDesc, Memory, MemoryNeeds, MemoryUse},
 };
 
 /// Kept from frame to frame: no memory is allocated as long as no frame is larger than those before.
@@ -75,6 +75,24 @@ impl Images {
             .sum()
     }
 
+    /// Adds what memory the first ones of a view will ask for to what is needed.
+    ///
+    /// # Errors
+    /// As [`memory_need`].
+    pub fn tell(
+        device: &Device,
+        of: (vk::Format, [u32; 2]),
+        (layers, objects): (bool, bool),
+        needs: &mut MemoryNeeds,
+    ) -> Result<()> {
+        let wanted = [layers, objects, true, true];
+        for (desc, _) in descs(of.0, of.1).into_iter().zip(wanted).filter(|(_, wanted)| *wanted) {
+            let block = Placed::new(device, desc)?.block[0];
+            needs.piece(desc.name, requirements(&block), (MemoryUse::Device, false));
+        }
+        Ok(())
+    }
+
     /// Those of a frame, the ones there are where they will do.
     ///
     /// # Errors
@@ -90,20 +108,30 @@ impl Images {
             let all = [&mut self.surface, &mut self.depth, &mut self.layers, &mut self.objects];
             all.into_iter().for_each(Sizes::give_back);
         }
-        let [width, height] = size_px;
-        let extent = vk::Extent2D { width, height };
-        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
-        let desc = |name, format| ImageDesc { name, format, extent, usage };
-        let Self { surface, depth, layers: of_layers, objects: of_objects, .. } = self;
-        let layers = layers.then(|| of_layers.fit(device, desc("layers for a host", format)));
-        let objects = objects.then(|| of_objects.fit(device, desc("objects for a host", OBJECTS_FORMAT)));
+        let [of_layers, of_objects, of_surface, of_depth] = descs(format, size_px);
+        let Self { surface, depth, layers: in_layers, objects: in_objects, .. } = self;
+        let layers = layers.then(|| in_layers.fit(device, of_layers));
+        let objects = objects.then(|| in_objects.fit(device, of_objects));
         Ok(OfFrame {
-            surface: surface.fit(device, desc("surface for a host", format))?,
-            depth: depth.fit(device, desc("its depth", SURFACE_DEPTH_FORMAT))?,
+            surface: surface.fit(device, of_surface)?,
+            depth: depth.fit(device, of_depth)?,
             layers: layers.transpose()?,
             objects: objects.transpose()?,
         })
     }
+}
+
+/// Those of layers, of objects, of the surface and of its depth.
+fn descs(format: vk::Format, [width, height]: [u32; 2]) -> [ImageDesc<'static>; 4] {
+    let extent = vk::Extent2D { width, height };
+    let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+    let desc = |name, format| ImageDesc { name, format, extent, usage };
+    [
+        desc("layers for a host", format),
+        desc("objects for a host", OBJECTS_FORMAT),
+        desc("surface for a host", format),
+        desc("its depth", SURFACE_DEPTH_FORMAT),
+    ]
 }
 
 impl Sizes {

@@ -18,8 +18,10 @@ mod frame;
 mod images;
 mod measured;
 mod motion;
+mod needs;
 mod onto;
 mod over;
+mod planned;
 mod scenes;
 mod table;
 mod to;
@@ -39,7 +41,7 @@ pub use crate::{
     scene::{HostCamera, Placement},
     vk::{
         Device, Features, FeaturesApart, HostAllocation, HostMemory, Import, MemoryHeap, MemoryHeaps,
-        MemoryInUse, MemoryRequest, MemoryUse, Requirements, requirements,
+        MemoryInUse, MemoryNeeds, MemoryPiece, MemoryRequest, MemoryUse, Requirements, requirements,
     },
 };
 pub use frame::{DepthImage, ViewFrame};

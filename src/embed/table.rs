@@ -4,7 +4,7 @@ use ash::vk;
 
 use crate::{
     error::Result,
-    vk::{Buffer, BufferDesc, Device, MemoryUse},
+    vk::{Buffer, BufferDesc, Device, MemoryNeeds, MemoryUse},
 };
 
 /// A table that is kept from frame to frame, in a storage buffer.
@@ -29,10 +29,7 @@ impl Table {
         let used = bytes.len() as u64;
         let buffer = match self.0.take().filter(|kept| kept.size() >= used) {
             Some(kept) => kept,
-            None => {
-                let (size, usage) = (used.max(1).next_power_of_two(), vk::BufferUsageFlags::STORAGE_BUFFER);
-                Buffer::new(device, BufferDesc { name, size, usage }, MemoryUse::Upload)?
-            }
+            None => Buffer::new(device, desc(name, used), MemoryUse::Upload)?,
         };
         let buffer = self.0.insert(buffer);
         // SAFETY: this function's contract.
@@ -41,8 +38,22 @@ impl Table {
         Ok((buffer.raw(), used))
     }
 
+    /// Adds what memory the first such table will ask for to what is needed.
+    ///
+    /// # Errors
+    /// As [`MemoryNeeds::buffer`].
+    pub fn tell(device: &Device, name: &str, bytes: u64, needs: &mut MemoryNeeds) -> Result<()> {
+        needs.buffer(device, desc(name, bytes), MemoryUse::Upload)
+    }
+
     /// Bytes of device memory.
     pub fn bytes(&self) -> u64 {
         self.0.as_ref().map_or(0, Buffer::size)
     }
+}
+
+/// The buffer of a table of so many bytes.
+fn desc(name: &str, bytes: u64) -> BufferDesc<'_> {
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    BufferDesc { name, size: bytes.max(1).next_power_of_two(), usage }
 }

@@ -1,7 +1,5 @@
 //! Where the passes of a frame go.
 
-use std::borrow::Cow;
-
 use ash::vk;
 
 use crate::{passes::plan::ahead::Ahead, scene::Settings};
@@ -12,22 +10,29 @@ pub(super) enum To {
     Commands(vk::CommandBuffer),
     /// Nowhere: pipelines are made for frames as they may become, of this size.
     Pipelines(Ahead, [u32; 2]),
+    /// Nowhere: it is told what memory they need.
+    Needs,
 }
 
 impl To {
     /// As what frames may become, of those that are not recorded.
     pub fn ahead(&self) -> Option<Ahead> {
         match self {
-            Self::Commands(_) => None,
+            Self::Commands(_) | Self::Needs => None,
             Self::Pipelines(ahead, _) => Some(*ahead),
         }
     }
 
     /// The settings of a frame, in its size.
-    pub fn settings<'s>(&self, settings: &'s Settings) -> Cow<'s, Settings> {
+    pub fn settings(&self, settings: Settings) -> Settings {
         match *self {
-            Self::Commands(_) => Cow::Borrowed(settings),
-            Self::Pipelines(_, size_px) => Cow::Owned(Settings { size_px, ..settings.clone() }),
+            Self::Commands(_) | Self::Needs => settings,
+            Self::Pipelines(_, size_px) => Settings { size_px, ..settings },
         }
+    }
+
+    /// Whether what is recorded is seen by a device.
+    pub fn is_recorded(&self) -> bool {
+        matches!(self, Self::Commands(_))
     }
 }

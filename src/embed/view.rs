@@ -3,24 +3,23 @@
 use ash::vk;
 
 use super::{
-    depth::host_depth,
     fields::as_fields,
-    frame::{DepthImage, ViewFrame},
-    images::{AFTER, BEFORE, Images},
+    frame::ViewFrame,
+    images::{AFTER, Images},
     motion::Motion,
     over::{Part, Rendering},
+    planned::{Planned, declare},
     to::To,
     under_way::{OfHost, UnderWay},
 };
 use crate::{
     arena::Arena,
-    error::{Error, Result},
+    error::Result,
     frame::{FrameSlot, SlotParts},
-    graph::{Graph, ImageDesc, execute::Physical},
     inline_vec::InlineVec,
-    passes::{self, FramePlan, HostDepth, Inputs, Place, Source, SurfacePlan, Tints, host::BesideHost},
+    passes::{self, HostDepth, Inputs, Place, Source, Tints},
     prepare::NO_TINT,
-    renderer::{Imports, Renderer},
+    renderer::Renderer,
     scene::Edges,
     shaders::config::{BIND_SUMS_COLORS, BIND_SUMS_DEPTH},
     vk::{Descriptor, Device, PoolSizes},
@@ -85,10 +84,16 @@ impl View {
     /// # Errors
     /// [`crate::ErrorKind::Option`] for a rendering that the device does not have, or that compares depths in no order; whatever the driver answers.
     pub fn new(renderer: &Renderer, rendering: &Rendering) -> Result<Self> {
-        rendering.check(renderer.device())?;
+        let view = Self::without_pipelines(renderer, rendering)?;
         for part in rendering.parts() {
             renderer.shaders.graphics(rendering.key(*part))?;
         }
+        Ok(view)
+    }
+
+    /// The same before its pipelines are made.
+    pub(super) fn without_pipelines(renderer: &Renderer, rendering: &Rendering) -> Result<Self> {
+        rendering.check(renderer.device())?;
         let device = renderer.device().clone();
         let slot = FrameSlot::new(&device);
         Ok(Self {
@@ -138,40 +143,16 @@ impl View {
         frame: &ViewFrame<'_>,
     ) -> Result<()> {
         self.prepared = None;
-        self.check_renderer(renderer)?;
-        let settings = &self.settings_of(frame);
-        if settings.samples.0 > 1 {
-            return Err(Error::option(
-                "samples",
-                "expected 1: a host takes more itself, by jittered cameras",
-            ));
-        }
-        renderer.check_settings(settings)?;
         renderer.staging.give_back_idle();
-        let (camera, depth) = Self::camera_of(frame, frame.camera)?;
-        self.check_order(depth)?;
-        renderer.check_frame(frame.scenes, &camera, settings)?;
-        let settings = &to.settings(settings);
-        let (limits, ahead) = (&renderer.limits, to.ahead());
-        let mut plan = FramePlan::of(arena, frame.scenes, &camera, (settings, limits), ahead);
-        if !self.rendering.has_color() {
-            plan.transparent = SurfacePlan::default();
-        }
-        let layered = !plan.transparent.is_empty();
-        self.check_frame(frame, layered)?;
-        let camera_before = Self::camera_before(frame)?.unwrap_or(camera);
-        let plan =
-            if self.rendering.wants_objects() { plan.with_objects(arena, limits, ahead) } else { plan };
-        let finds_objects = plan.objects.is_some();
-        let columns = if frame.mirrored { settings.size_px[0] as i32 } else { 0 };
-        let depth =
-            HostDepth { corner_px: frame.corner_px, columns, ..host_depth(depth, &camera, plan.range) };
-        let format = self.rendering.surface_format();
+        let ahead = to.ahead();
+        let planned = self.planned(arena, renderer, &to, frame)?;
+        let Planned { settings, camera, camera_before, depth, plan, .. } = &planned;
         let size_px = if ahead.is_none() { settings.size_px } else { [1; 2] };
-        let images = self.images.fit(&self.device, (format, size_px), (layered, finds_objects))?;
+        let (format, of) = (planned.format, (planned.layered, planned.finds_objects));
+        let images = self.images.fit(&self.device, (format, size_px), of)?;
 
         let counts_draws = self.device.facts().draw_indirect_count;
-        let mut needs = passes::needs(&plan, settings, counts_draws);
+        let mut needs = passes::needs(plan, settings, counts_draws);
         needs.room = needs.room.plus(&SETS_OF_DRAWS);
         if ahead.is_none() {
             self.under_way.keep_apart(&self.device, &mut self.slot, &mut self.of_host)?;
@@ -193,37 +174,11 @@ impl View {
             }
         }
         let SlotParts { descriptors, occlusion, execution } = self.slot.parts()?;
-        let inputs = Inputs::new(&camera, settings, Place::Device(&renderer.shaders, descriptors));
+        let inputs = Inputs::new(camera, settings, Place::Device(&renderer.shaders, descriptors));
         let source = Source { missing: frame.missing, ..inputs.source.cut_by(planes) };
         let inputs = Inputs { occlusion, range: plan.range, source, tints, ..inputs };
 
-        let (mut graph, mut imports): (_, Imports<'_>) = (Graph::new(arena), arena.growing());
-        let [width, height] = settings.size_px;
-        let extent = vk::Extent2D { width, height };
-        let mut import = |name: &str, image: &crate::vk::Image| {
-            let desc = ImageDesc { format: image.format(), extent };
-            let handle = graph.import_image(name, desc, BEFORE, Some(AFTER));
-            imports.push((handle.id(), Physical::Image(image.raw(), image.view())));
-            handle
-        };
-        let mut surface = import("surface for a host", images.surface);
-        let mut surface_depth = import("its depth", images.depth);
-        let mut layers = images.layers.map(|image| import("layers for a host", image));
-        let mut objects = images.objects.map(|image| import("objects for a host", image));
-        let hides = frame.hides.filter(|_| layered).map(|hides| {
-            let DepthImage { image, view, format, extent, layer, before, after } = hides;
-            let handle =
-                graph.import_image("depth of the host", ImageDesc { format, extent }, before, Some(after));
-            imports.push((handle.id(), Physical::Layer(image, view, layer)));
-            handle
-        });
-        let beside = BesideHost {
-            hides: hides.as_ref().map(|hides| (hides, depth)),
-            depth: &mut surface_depth,
-            objects: objects.as_mut(),
-            layers: layers.as_mut(),
-        };
-        passes::frame(&mut graph, inputs, &plan, &mut surface, format, (false, Some(beside)))?;
+        let (graph, imports) = declare(arena, inputs, &planned, frame.hides, Some(&images))?;
         let To::Commands(commands) = to else { return Ok(()) };
         self.under_way.record(&self.device);
         // SAFETY: as above.
@@ -256,7 +211,7 @@ impl View {
         }
         let objects = match (&plan.objects, images.objects) {
             (Some(drawn), Some(image)) => {
-                let motion = Motion::new([&camera, &camera_before], plan.range, settings.size_px);
+                let motion = Motion::new([camera, camera_before], plan.range, settings.size_px);
                 let of = arena.list(frame.scenes.iter().map(|placed| motion.of(placed)));
                 let all = arena.list(drawn.placed().map(|placed| of[placed as usize]));
                 // SAFETY: this function's contract.
@@ -268,9 +223,9 @@ impl View {
             }
             _ => None,
         };
-        let [x, y] = frame.corner_px;
-        let area = vk::Rect2D { offset: vk::Offset2D { x, y }, extent };
-        self.prepared = Some(Prepared { area, depth, draws, objects });
+        let ([x, y], [width, height]) = (frame.corner_px, settings.size_px);
+        let (offset, extent) = (vk::Offset2D { x, y }, vk::Extent2D { width, height });
+        self.prepared = Some(Prepared { area: vk::Rect2D { offset, extent }, depth: *depth, draws, objects });
         Ok(())
     }
 }

@@ -4,5 +4,5 @@ mod slot;
 mod target;
 
 pub use slot::FrameSlot;
-pub(crate) use slot::{Execution, SlotParts, Written};
+pub(crate) use slot::{Execution, SlotParts, Written, planes_desc};
 pub use target::{HeadlessTarget, Target};

@@ -139,11 +139,9 @@ impl FrameSlot {
         if planes.is_empty() {
             return Ok(Planes::default());
         }
-        let desc =
-            BufferDesc { name: "planes", size: PLANES_BYTES, usage: vk::BufferUsageFlags::UNIFORM_BUFFER };
         let buffer = match &mut self.written.planes {
             Some(buffer) => buffer,
-            none => none.insert(Buffer::new(&self.device, desc, MemoryUse::Upload)?),
+            none => none.insert(Buffer::new(&self.device, planes_desc(), MemoryUse::Upload)?),
         };
         let bytes: &[u8] = bytemuck::cast_slice(planes);
         // SAFETY: this function's contract: the frame before has finished.
@@ -166,6 +164,11 @@ impl FrameSlot {
         let occlusion = self.occlusion.as_ref().filter(|_| self.counts_layers);
         Ok(SlotParts { descriptors, occlusion, execution })
     }
+}
+
+/// The buffer of planes.
+pub(crate) fn planes_desc() -> BufferDesc<'static> {
+    BufferDesc { name: "planes", size: PLANES_BYTES, usage: vk::BufferUsageFlags::UNIFORM_BUFFER }
 }
 
 impl Execution<'_> {

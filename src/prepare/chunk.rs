@@ -15,7 +15,7 @@ use super::{
     rebase::Rebase,
     updatable::Shadow,
 };
-use crate::{error::Result, scene::Epsilon, vk::Staging};
+use crate::{error::Result, scene::Epsilon};
 
 /// The most splats of a chunk, whatever the device allows: bounds the lists that hold an index for each.
 const MAX_SPLATS: usize = 1 << 22;
@@ -150,7 +150,7 @@ impl Chunk {
             shadow: None,
             tree: BlockTree::default(),
             bytes_each,
-            memory: uploader.map(memory).transpose()?,
+            memory: uploader.map(memory).transpose()?.flatten(),
         })
     }
 
@@ -183,14 +183,14 @@ impl Chunk {
 
     /// Uploads the splats from number `first` of the chunk on.
     fn upload(&self, uploader: &mut Uploader<'_>, first: u32, packed: &Packed) -> Result<()> {
-        let Some(ChunkMemory { buffers, .. }) = &self.memory else { return Ok(()) };
         let shapes: &[u8] = bytemuck::cast_slice(&packed.shapes);
         let colors: &[u8] = bytemuck::cast_slice(&packed.colors);
         // The one color comes with the first splats.
         let colors = if self.uniform_color && first > 0 { &[] } else { colors };
         let clips: &[u8] = bytemuck::cast_slice(&packed.clips);
         let bytes = (shapes.len() + colors.len() + clips.len()) as u64;
-        let mut staging = Staging::new(uploader.device, "upload of splats", bytes)?;
+        let Some(mut staging) = uploader.staging("upload of splats", bytes)? else { return Ok(()) };
+        let Some(ChunkMemory { buffers, .. }) = &self.memory else { return Ok(()) };
         let first = u64::from(first);
         staging.push(&buffers[0], first * self.bytes_each[0], shapes)?;
         if !colors.is_empty() {
@@ -212,11 +212,12 @@ impl Chunk {
             block.levels = Some(Box::new(*levels));
         }
         self.tree = BlockTree::new(&self.blocks);
-        let (Some(uploader), Some(memory)) = (uploader, &self.memory) else { return Ok(()) };
+        let Some(uploader) = uploader else { return Ok(()) };
         let words = levels.words.chunks(BATCH_WORDS).zip((0..).step_by(BATCH_WORDS * size_of::<u32>()));
         for (words, at) in words {
             let bytes: &[u8] = bytemuck::cast_slice(words);
-            let mut staging = Staging::new(uploader.device, "upload of levels", bytes.len() as u64)?;
+            let batch = uploader.staging("upload of levels", bytes.len() as u64)?;
+            let (Some(mut staging), Some(memory)) = (batch, &self.memory) else { continue };
             staging.push(&memory.buffers[2], at, bytes)?;
             uploader.submit(staging)?;
         }

@@ -11,7 +11,7 @@ use super::{
     chunk::{self, Chunk},
     level_words::LevelWords,
     levels::{ChunkLevels, LevelPart, Leveled},
-    memory::Uploader,
+    memory::{To, Uploader},
     near_surfaces::{self, sharp::Sharp},
     pack::{self, Packed},
     part::{Numbers, Part},
@@ -37,7 +37,7 @@ fn bounds_of(scene: &Scene) -> Option<Bounds> {
     scene.bounds().filter(|_| !changes && scene.leveled.is_empty())
 }
 
-/// Cuts a scene; uploads it where there is an uploader.
+/// Cuts a scene; uploads it, or tells what that would take, where there is an uploader.
 ///
 /// # Errors
 /// Whatever the uploader answers.
@@ -55,7 +55,8 @@ pub(super) fn cut(
     let of_splats = scene.objects.iter().map(|object| object.name.as_str());
     let leveled = scene.leveled.iter().map(|object| object.name.as_str());
     let names = of_splats.chain(leveled).chain(scene.meshes.iter().map(|object| object.name.as_str()));
-    let device = uploader.as_ref().map(|uploader| uploader.device.clone());
+    let on = |uploader: &Uploader<'_>| matches!(uploader.to, To::Device(_)).then(|| uploader.device.clone());
+    let device = uploader.as_ref().and_then(on);
     let mut cut = Cut {
         uploader,
         capacity: chunk::capacity(limits.max_storage_buffer_range),

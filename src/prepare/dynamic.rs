@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 
 use super::{
     Block, Chunk, PreparedScene, RadiusStep, Rebase, SplatSetLayout,
-    memory::Uploader,
+    memory::{To, Uploader},
     pack::{Survey, packed_color},
 };
 use crate::{
@@ -148,7 +148,7 @@ impl PreparedScene {
     ) -> Result<Self> {
         splats.check(super::chunk::capacity(limits.max_storage_buffer_range))?;
         let submit: &mut dyn FnMut(Staging) -> Result<()> = &mut |_| Ok(());
-        let uploader = Uploader { device, layout, submit };
+        let uploader = Uploader { device, layout, to: To::Device(submit) };
         let mut chunk =
             Chunk::new(Some(&uploader), 0, (splats.closed, splats.transparent), (&splats.survey(), None))?;
         chunk.dynamic = true;

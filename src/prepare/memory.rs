@@ -1,12 +1,14 @@
 //! The memory of a chunk on the device: its buffers, and the descriptor set that shaders find them by.
 
+use std::cell::RefCell;
+
 use ash::vk;
 
 use crate::{
     error::{Error, Result},
     vk::{
-        Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolSizes, SealedPool,
-        SetLayout, Staging,
+        Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryNeeds, MemoryUse, PoolSizes,
+        SealedPool, SetLayout, Staging,
     },
 };
 
@@ -35,7 +37,15 @@ impl SplatSetLayout {
 pub(super) struct Uploader<'u> {
     pub device: &'u Device,
     pub layout: &'u SplatSetLayout,
-    pub submit: &'u mut dyn FnMut(Staging) -> Result<()>,
+    pub to: To<'u>,
+}
+
+/// Where uploads go.
+pub(super) enum To<'u> {
+    /// To the device, by whoever runs batches of them.
+    Device(&'u mut dyn FnMut(Staging) -> Result<()>),
+    /// Nowhere: what memory they would take is told.
+    Needs(&'u RefCell<MemoryNeeds>),
 }
 
 /// Buffers of a chunk, and their set.
@@ -49,25 +59,47 @@ pub(super) struct ChunkMemory {
 impl Uploader<'_> {
     /// Has a batch recorded: what is on the device else would be whatever was there before, as which no scene may be drawn.
     pub fn submit(&mut self, batch: Staging) -> Result<()> {
+        let To::Device(submit) = &mut self.to else { return Ok(()) };
         let is_recorded = batch.is_recorded();
-        (self.submit)(batch)?;
+        submit(batch)?;
         match is_recorded() {
             true => Ok(()),
             false => Err(Error::option("submit", "a batch of uploads was not recorded")),
         }
     }
 
-    /// A buffer of device memory that is filled by uploads.
-    pub fn buffer(&self, name: &str, size: u64, usage: vk::BufferUsageFlags) -> Result<Buffer> {
-        let usage = usage | vk::BufferUsageFlags::TRANSFER_DST;
-        Buffer::new(self.device, BufferDesc { name, size, usage }, MemoryUse::Device)
+    /// A buffer of device memory that is filled by uploads; `None` where it is only told what they need.
+    pub fn buffer(&self, name: &str, size: u64, usage: vk::BufferUsageFlags) -> Result<Option<Buffer>> {
+        let desc = BufferDesc { name, size, usage: usage | vk::BufferUsageFlags::TRANSFER_DST };
+        match &self.to {
+            To::Device(_) => Buffer::new(self.device, desc, MemoryUse::Device).map(Some),
+            To::Needs(needs) => {
+                needs.borrow_mut().buffer(self.device, desc, MemoryUse::Device).map(|()| None)
+            }
+        }
+    }
+
+    /// A batch of uploads, alike.
+    pub fn staging(&self, name: &str, bytes: u64) -> Result<Option<Staging>> {
+        match &self.to {
+            To::Device(_) => Staging::new(self.device, name, bytes).map(Some),
+            To::Needs(needs) => {
+                Staging::tell(self.device, name, bytes, &mut needs.borrow_mut()).map(|()| None)
+            }
+        }
     }
 }
 
 impl ChunkMemory {
     /// The set of the first `named` of some buffers, one at least; the last of them stands in for those that are missing. `name`: the
-    /// chunk's.
-    pub fn new(uploader: &Uploader<'_>, name: &str, buffers: Vec<Buffer>, named: usize) -> Result<Self> {
+    /// chunk's. `None` where one of them is none.
+    pub fn new(
+        uploader: &Uploader<'_>,
+        name: &str,
+        buffers: Vec<Option<Buffer>>,
+        named: usize,
+    ) -> Result<Option<Self>> {
+        let Some(buffers) = buffers.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
         let room = PoolSizes { sets: 1, buffers: 4, ..PoolSizes::default() };
         let pool = DescriptorPool::new(uploader.device, &format!("set of {name}"), room)?;
         let named = &buffers[..named];
@@ -77,7 +109,7 @@ impl ChunkMemory {
             .collect();
         // SAFETY: storage buffers of this device, which are kept beside the set.
         let set = unsafe { pool.set(uploader.layout.set(), &given) }?;
-        Ok(Self { set, _pool: pool.seal(), buffers })
+        Ok(Some(Self { set, _pool: pool.seal(), buffers }))
     }
 
     /// Bytes of device memory.

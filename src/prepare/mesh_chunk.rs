@@ -18,7 +18,6 @@ use super::{
 use crate::{
     error::Result,
     scene::{Colors, Mesh},
-    vk::Staging,
 };
 
 /// The most bytes that are uploaded at once.
@@ -156,7 +155,7 @@ impl PackedMesh {
         uploader: &mut Uploader<'_>,
         number: usize,
         cells: Option<&[u32]>,
-    ) -> Result<ChunkMemory> {
+    ) -> Result<Option<ChunkMemory>> {
         let buffer = |what: &str, size: usize, usage: vk::BufferUsageFlags| {
             uploader.buffer(&format!("{what} of mesh {number}"), size as u64, usage)
         };
@@ -178,7 +177,8 @@ impl PackedMesh {
         let named = buffers.len();
         for (buffer, content) in buffers.iter().zip(contents) {
             for (i, batch) in content.chunks(BATCH_BYTES).enumerate() {
-                let mut staging = Staging::new(uploader.device, "upload of a mesh", batch.len() as u64)?;
+                let staging = uploader.staging("upload of a mesh", batch.len() as u64)?;
+                let (Some(mut staging), Some(buffer)) = (staging, buffer) else { continue };
                 staging.push(buffer, (i * BATCH_BYTES) as u64, batch)?;
                 uploader.submit(staging)?;
             }
@@ -208,7 +208,7 @@ impl MeshChunk {
             farthest: packed.farthest(),
             mean_edge: packed.edges().sum::<f64>() / (3 * packed.indices.len()) as f64,
             longest_edge: packed.edges().fold(0.0, f64::max),
-            memory: uploader.map(|uploader| packed.upload(uploader, number, words)).transpose()?,
+            memory: uploader.map(|uploader| packed.upload(uploader, number, words)).transpose()?.flatten(),
             levels: cells.map(|cells| cells.levels),
         })
     }

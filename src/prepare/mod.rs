@@ -50,16 +50,16 @@ pub use radii::RadiusStep;
 pub use rebase::{Rebase, ViewFromLocal};
 pub use refinements::{Group, Refinement, Refinements};
 
-use std::ops::Range;
+use std::{cell::RefCell, ops::Range};
 
 use cut::cut;
-use memory::Uploader;
+use memory::{To, Uploader};
 pub(crate) use updatable::{Changes, RoomOf, Update};
 
 use crate::{
     error::{Error, Result},
     scene::{Bounds, DefectCounts, Light, Scene, Storage},
-    vk::{Device, Limits, Staging, Upload},
+    vk::{Device, Limits, MemoryNeeds, Staging, Upload},
 };
 
 /// A scene on the device. Chunks have the order of the scene's objects, and their splats that of its [`Storage`].
@@ -117,9 +117,14 @@ impl PreparedScene {
         &self.meshes
     }
 
-    /// Whether it is on that device, or nowhere.
+    /// Whether it is on that device.
     pub(crate) fn is_on(&self, device: &Device) -> bool {
-        self.device.as_ref().is_none_or(|own| own.is(device))
+        self.device.as_ref().is_some_and(|own| own.is(device))
+    }
+
+    /// Whether it is on no device: frames of it are listed or measured alone.
+    pub(crate) fn is_nowhere(&self) -> bool {
+        self.device.is_none()
     }
 
     /// Whether anything of it is transparent, so that it is drawn in layers.
@@ -163,11 +168,30 @@ pub fn prepare(
     if !layout.set().is_of(device) {
         return Err(Error::option("layout", "is another device's"));
     }
-    // No buffer is larger than this device can bind, whatever is asked for.
+    let uploader = Uploader { device, layout, to: To::Device(submit) };
+    cut(Some(uploader), &bindable(device, limits), scene, progress)
+}
+
+/// What memory [`prepare`] of a scene will ask for, and the scene as it would be prepared, which is nowhere: for a frame of which it is asked, too, what it needs.
+///
+/// # Errors
+/// As [`prepare`], but for those of driver and allocator.
+pub(crate) fn needs(
+    device: &Device,
+    limits: &Limits,
+    layout: &SplatSetLayout,
+    scene: &Scene,
+) -> Result<(PreparedScene, MemoryNeeds)> {
+    let needs = RefCell::default();
+    let uploader = Uploader { device, layout, to: To::Needs(&needs) };
+    let prepared = cut(Some(uploader), &bindable(device, limits), scene, &|_, _| {})?;
+    Ok((prepared, needs.into_inner()))
+}
+
+/// The limits with no buffer larger than this device can bind, whatever is asked for.
+fn bindable(device: &Device, limits: &Limits) -> Limits {
     let own = device.facts().limits.max_storage_buffer_range;
-    let max_storage_buffer_range = limits.max_storage_buffer_range.min(own);
-    let limits = &Limits { max_storage_buffer_range, ..*limits };
-    cut(Some(Uploader { device, layout, submit }), limits, scene, progress)
+    Limits { max_storage_buffer_range: limits.max_storage_buffer_range.min(own), ..*limits }
 }
 
 /// A scene as it would be prepared on a device with these limits, without its memory: for a frame that is listed, never drawn.

@@ -198,7 +198,7 @@ impl Renderer {
                 before.validate().map_err(|error| of_scene("placement before", error))?;
             }
             placed.check_tint().map_err(|error| of_scene("tint", error))?;
-            if !scene.is_on(&self.device) {
+            if !scene.is_on(&self.device) && !scene.is_nowhere() {
                 return Err(Error::option("scene", "was prepared for another device"));
             }
             for chunk in &scene.chunks {

@@ -11,6 +11,7 @@ use super::{
     buffer::{Buffer, BufferDesc},
     device::Device,
     memory::MemoryUse,
+    memory_needs::MemoryNeeds,
 };
 use crate::error::{Error, Result};
 
@@ -31,13 +32,25 @@ impl Staging {
     /// Whatever the driver or the allocator answers.
     pub fn new(device: &Device, name: &str, bytes: u64) -> Result<Self> {
         let told = bytes.next_multiple_of(TOLD_BYTES);
-        let usage = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
-        let desc = BufferDesc { name, size: told + TOLD_BYTES, usage };
-        let mut buffer = Buffer::new(device, desc, MemoryUse::Upload)?;
+        let mut buffer = Buffer::new(device, Self::desc(name, bytes), MemoryUse::Upload)?;
         // SAFETY: it is new.
         let word = unsafe { buffer.bytes_mut() }.get_mut(told as usize..);
         word.into_iter().flatten().for_each(|byte| *byte = 0);
         Ok(Self { device: device.clone(), buffer, used: 0, copies: Vec::new(), recorded: Arc::default() })
+    }
+
+    /// The buffer of a batch.
+    fn desc(name: &str, bytes: u64) -> BufferDesc<'_> {
+        let usage = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
+        BufferDesc { name, size: bytes.next_multiple_of(TOLD_BYTES) + TOLD_BYTES, usage }
+    }
+
+    /// Adds what memory a batch will ask for to what is needed.
+    ///
+    /// # Errors
+    /// As [`Self::new`], but for those of the driver and the allocator.
+    pub(crate) fn tell(device: &Device, name: &str, bytes: u64, needs: &mut MemoryNeeds) -> Result<()> {
+        needs.buffer(device, Self::desc(name, bytes), MemoryUse::Upload)
     }
 
     /// Adds bytes for `target`, whose usage includes `TRANSFER_DST`, from its byte `offset` on.

@@ -10,6 +10,7 @@ use super::{
     device::Device,
     image::{Image, ImageDesc},
     memory::MemoryUse,
+    memory_needs::MemoryNeeds,
 };
 use crate::error::Result;
 
@@ -18,6 +19,27 @@ const IMAGE_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
 /// Bytes of the buffers: as much as a uniform block of ours.
 pub(crate) const STAND_IN_BYTES: u64 = 1024;
+
+const FLOATS: &str = "stand-in of floats";
+const INTEGERS: &str = "stand-in of integers";
+
+/// The image.
+const IMAGE: ImageDesc<'_> = ImageDesc {
+    name: "stand-in",
+    format: IMAGE_FORMAT,
+    extent: vk::Extent2D { width: 1, height: 1 },
+    usage: vk::ImageUsageFlags::from_raw(
+        vk::ImageUsageFlags::SAMPLED.as_raw() | vk::ImageUsageFlags::STORAGE.as_raw(),
+    ),
+};
+
+/// One of the buffers.
+fn buffer_desc(name: &str) -> BufferDesc<'_> {
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+        | vk::BufferUsageFlags::UNIFORM_BUFFER
+        | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
+    BufferDesc { name, size: STAND_IN_BYTES, usage }
+}
 
 /// A small buffer of each kind and an image of one texel, whose contents mean nothing; made when a set first needs one, for pipelines
 /// are compiled for devices, too, that have no memory.
@@ -46,6 +68,20 @@ impl StandIns {
                 Ok(self.made.get_or_init(|| new))
             }
         }
+    }
+
+    /// Adds what memory they will ask for to what is needed, where they are not made yet.
+    ///
+    /// # Errors
+    /// As those of making them, but for those of the driver and the allocator.
+    pub(crate) fn tell(&self, needs: &mut MemoryNeeds) -> Result<()> {
+        if self.made.get().is_some() {
+            return Ok(());
+        }
+        for name in [FLOATS, INTEGERS] {
+            needs.buffer(&self.device, buffer_desc(name), MemoryUse::Device)?;
+        }
+        needs.image(&self.device, IMAGE)
     }
 
     /// Records what brings the image into its layout: once a frame, before its passes, so that no frame depends on another.
@@ -97,22 +133,12 @@ impl StandIns {
 impl Made {
     fn new(device: &Device) -> Result<Self> {
         let buffer = |name, format| {
-            let usage = vk::BufferUsageFlags::STORAGE_BUFFER
-                | vk::BufferUsageFlags::UNIFORM_BUFFER
-                | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
-            let desc = BufferDesc { name, size: STAND_IN_BYTES, usage };
-            Buffer::new(device, desc, MemoryUse::Device)?.with_texels(name, format)
-        };
-        let image = ImageDesc {
-            name: "stand-in",
-            format: IMAGE_FORMAT,
-            extent: vk::Extent2D { width: 1, height: 1 },
-            usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::STORAGE,
+            Buffer::new(device, buffer_desc(name), MemoryUse::Device)?.with_texels(name, format)
         };
         Ok(Self {
-            floats: buffer("stand-in of floats", vk::Format::R32G32B32A32_SFLOAT)?,
-            integers: buffer("stand-in of integers", vk::Format::R32_UINT)?,
-            image: Image::new(device, image)?,
+            floats: buffer(FLOATS, vk::Format::R32G32B32A32_SFLOAT)?,
+            integers: buffer(INTEGERS, vk::Format::R32_UINT)?,
+            image: Image::new(device, IMAGE)?,
         })
     }
 }

@@ -13,6 +13,7 @@ mod late;
 mod layers;
 mod memory;
 mod mirrors;
+mod needs;
 mod objects;
 mod onto;
 mod recording;

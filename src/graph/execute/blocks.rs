@@ -129,7 +129,7 @@ impl Shared {
     }
 }
 
-fn requirements(block: &Block) -> vk::MemoryRequirements {
+pub(crate) fn requirements(block: &Block) -> vk::MemoryRequirements {
     vk::MemoryRequirements {
         size: block.size_bytes,
         alignment: block.alignment_bytes,

@@ -6,16 +6,16 @@ use std::{collections::HashSet, sync::Arc};
 use ash::vk;
 
 use super::{
-    super::{BufferDesc, Graph, Plan, ResourceDesc, ResourceId},
+    super::{BufferDesc, Graph, MemoryClass, Plan, ResourceDesc, ResourceId},
     Body, Part, Physical, Profiler,
-    blocks::{Blocks, FRAMES_OF_LATE},
+    blocks::{Blocks, FRAMES_OF_LATE, requirements},
     execute,
     rooms::{Room, renew, serve},
-    transients::{Transients, memory_need},
+    transients::{Transients, memory_need, transient_name},
 };
 use crate::{
     error::{ErrorKind, Result},
-    vk::{Device, texel_bytes, wait_for_all},
+    vk::{Device, MemoryNeeds, MemoryUse, texel_bytes, wait_for_all},
 };
 
 /// The plans and the transients of executions, for those that follow.
@@ -98,6 +98,19 @@ impl Kept {
         }
         // SAFETY: this function's contract.
         unsafe { execute(device, commands, (&ready.plan, graph), &ready.transients, imports, profiler, part) }
+    }
+
+    /// Adds what memory the first execution of a graph will ask for to what is needed.
+    ///
+    /// # Errors
+    /// As [`Graph::compile`].
+    pub(crate) fn tell(device: &Device, graph: &Graph<'_, Body<'_>>, needs: &mut MemoryNeeds) -> Result<()> {
+        let Ready { plan, .. } = Self::default().make(device, graph)?;
+        for block in &plan.blocks {
+            let of = (MemoryUse::Device, block.class == MemoryClass::Buffers);
+            needs.piece(transient_name(block.class), requirements(block), of);
+        }
+        Ok(())
     }
 
     /// Gives back all, where it is far more than the last execution has needed.

@@ -12,7 +12,7 @@ mod transients;
 
 use ash::vk;
 
-pub(crate) use self::blocks::{Blocks, FRAMES_OF_LATE};
+pub(crate) use self::blocks::{Blocks, FRAMES_OF_LATE, requirements};
 use self::{context::Binding, recorder::Recorder};
 pub use self::{
     context::{Body, PassContext},

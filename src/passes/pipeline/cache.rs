@@ -29,7 +29,8 @@ use crate::{
     shaders::{Shader, config::*},
     vk::{
         Binding, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
-        GraphicsPipelineDesc, PipelineCache, PipelineLayout, PoolSizes, SetLayout, Stage, StandIns,
+        GraphicsPipelineDesc, MemoryNeeds, PipelineCache, PipelineLayout, PoolSizes, SetLayout, Stage,
+        StandIns,
     },
 };
 
@@ -181,6 +182,14 @@ impl Shaders {
     pub unsafe fn begin_frame(&self, commands: vk::CommandBuffer) -> Result<()> {
         // SAFETY: this function's contract.
         unsafe { self.stand_ins.make_ready(commands) }
+    }
+
+    /// Adds what memory a first frame will ask for, of what stands in for what it has not, to what is needed.
+    ///
+    /// # Errors
+    /// As [`MemoryNeeds::buffer`].
+    pub(crate) fn tell(&self, needs: &mut MemoryNeeds) -> Result<()> {
+        self.stand_ins.tell(needs)
     }
 
     /// Writes compiled pipelines to the cache's file.

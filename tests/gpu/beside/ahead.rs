@@ -85,13 +85,13 @@ fn ahead(mut beside: Beside, in_background: bool) {
 }
 
 /// What flies, and by what settings.
-struct Flight {
-    name: &'static str,
-    scene: Scene,
-    settings: Settings,
+pub(super) struct Flight {
+    pub name: &'static str,
+    pub scene: Scene,
+    pub settings: Settings,
 }
 
-fn of_splats(count: usize, closed: bool, alpha: f32) -> Scene {
+pub(super) fn of_splats(count: usize, closed: bool, alpha: f32) -> Scene {
     let mut ball = scenes::sphere(count, DVec3::ZERO);
     ball.splats.colors = Colors::Uniform([0.5, 0.6, 0.7, alpha]);
     ball.closed = closed;
@@ -107,9 +107,9 @@ fn triangle() -> MeshObject {
 }
 
 /// Of a device on which lists have room for some of its splats alone.
-const WITHOUT_ROOM: &str = "levels without room";
+pub(super) const WITHOUT_ROOM: &str = "levels without room";
 
-fn flights() -> Vec<Flight> {
+pub(super) fn flights() -> Vec<Flight> {
     let by = |rasterizer| Settings { size_px: SIZE_PX, rasterizer, ..Settings::default() };
     let flight = |name, scene, settings| Flight { name, scene, settings };
     let (tiles, points) = (Rasterizer::Compute, Rasterizer::Perspective);
@@ -168,7 +168,7 @@ fn flights() -> Vec<Flight> {
 }
 
 /// Where a camera is on its way: from where all is less than a pixel to the middle, with stops around the surface, which has a radius of 1.
-fn on_the_way([width, height]: [u32; 2]) -> impl Iterator<Item = HostCamera> {
+pub(super) fn on_the_way([width, height]: [u32; 2]) -> impl Iterator<Item = HostCamera> {
     let aspect = f64::from(width) / f64::from(height);
     let far = (0..40).map(|step| 2000.0 * 0.75_f64.powi(step));
     let near = [1.2, 1.1, 1.05, 1.02, 1.01, 1.003, 1.001, 1.0, 0.999, 0.99, 0.95, 0.9, 0.7, 0.3];

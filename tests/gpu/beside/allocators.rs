@@ -86,14 +86,14 @@ unsafe impl HostMemory for OfCrate {
 const ROOMY_BYTES: u64 = 64 << 20;
 
 /// One memory object, mapped; each piece is the first gap that is large enough.
-struct OneBlock {
+pub(super) struct OneBlock {
     device: ash::Device,
     memory: vk::DeviceMemory,
     first: NonNull<u8>,
     kind: u32,
     bytes: u64,
     /// What pieces of images and buffers are apart from each other.
-    granularity: u64,
+    pub granularity: u64,
     /// Begin and end of each piece, in their order; and the largest end that there was.
     taken: Mutex<(Vec<[u64; 2]>, u64)>,
 }
@@ -104,7 +104,7 @@ unsafe impl Send for OneBlock {}
 unsafe impl Sync for OneBlock {}
 
 impl OneBlock {
-    fn new(engine: &Engine, bytes: u64) -> Arc<Self> {
+    pub fn new(engine: &Engine, bytes: u64) -> Arc<Self> {
         let visible = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
         // SAFETY: the engine outlives its block, which is unmapped as it is freed.
         unsafe {
@@ -128,11 +128,11 @@ impl OneBlock {
         }
     }
 
-    fn most_bytes(&self) -> u64 {
+    pub fn most_bytes(&self) -> u64 {
         self.taken.lock().unwrap().1
     }
 
-    fn end(&self) {
+    pub fn end(&self) {
         assert_eq!(self.taken.lock().unwrap().0, [[0; 2]; 0]);
         // SAFETY: all pieces have come back, and the engine is alive.
         unsafe { self.device.free_memory(self.memory, None) };
