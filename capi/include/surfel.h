@@ -1936,6 +1936,63 @@ typedef struct SurfelHostImage {
 } SurfelHostImage;
 
 /**
+ * Is told of a piece, as a host's allocator will be asked for it; valid during the call. Must return.
+ */
+typedef void (*SurfelMemoryPiece)(void *user, const struct SurfelMemoryRequest *piece);
+
+/**
+ * A block of memory with room for some pieces, one behind the other.
+ */
+typedef struct SurfelMemoryBlock {
+  /**
+   * How many bytes.
+   */
+  uint64_t bytes;
+  /**
+   * Of its first byte.
+   */
+  uint64_t alignment;
+  /**
+   * A bit for each type of memory that will do for all of them, as in `VkMemoryRequirements`.
+   */
+  uint32_t memoryTypeBits;
+  /**
+   * How many pieces.
+   */
+  uint32_t pieces;
+} SurfelMemoryBlock;
+
+/**
+ * What memory will be asked for, told before. `surfel_scene_needs` and `surfel_view_needs` fill it.
+ */
+typedef struct SurfelMemoryNeeds {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_MEMORY_NEEDS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelMemoryNeeds)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  void *pNext;
+  /**
+   * All of it in one block.
+   */
+  struct SurfelMemoryBlock all;
+  /**
+   * What only the device touches.
+   */
+  struct SurfelMemoryBlock ofDevice;
+  /**
+   * What the host's processor writes: it must be mapped, and coherent. Of scenes what is copied from, which goes once that has run.
+   */
+  struct SurfelMemoryBlock writtenByHost;
+} SurfelMemoryNeeds;
+
+/**
  * Is told of a pass: its name, valid during the call, and its seconds, below 0 where they were not measured. Must return.
  */
 typedef void (*SurfelPassTime)(void *user, const char *name, double secs);
@@ -2663,6 +2720,31 @@ SurfelResult surfel_view_bytes(const struct SurfelView *view, uint64_t *bytes);
 void surfel_view_destroy(struct SurfelView *view);
 
 /**
+ * Tells what memory `surfel_upload` of a scene will ask for; takes none of the device's, but as long as the upload on the host. `granularity` is Vulkan's `bufferImageGranularity` where buffers and images
+ * lie in one block; else 1. `each` is told of the pieces in the order in which they will be asked for; it, `user` and `needs` may be NULL. `measured`, which may be NULL, gets the scene as it would be uploaded, but on no
+ * device: for frames that `surfel_view_needs` is asked of; others refuse it. It is destroyed as any other.
+ */
+SurfelResult surfel_scene_needs(const struct SurfelRenderer *renderer,
+                                const struct SurfelScene *scene,
+                                uint64_t granularity,
+                                SurfelMemoryPiece each,
+                                void *user,
+                                struct SurfelMemoryNeeds *needs,
+                                struct SurfelPreparedScene **measured);
+
+/**
+ * Tells what memory the first `surfel_view_prepare` of a new view will ask for, for a frame like this, of scenes that are on the device or of `surfel_scene_needs`; of the first frame of a renderer with what that has of its
+ * own. Takes none of the device's, and makes no pipeline. Frames of the view that need no more of any piece ask for nothing; how much one needs follows from which splats may be seen, and so from its camera. The other arguments are those of `surfel_scene_needs`.
+ */
+SurfelResult surfel_view_needs(const struct SurfelRenderer *renderer,
+                               const struct SurfelRendering *rendering,
+                               const struct SurfelFrame *frame,
+                               uint64_t granularity,
+                               SurfelMemoryPiece each,
+                               void *user,
+                               struct SurfelMemoryNeeds *needs);
+
+/**
  * Tells how long each pass took of the frame that was prepared last, in their order, once it has finished; nothing if it was not `timed`.
  */
 SurfelResult surfel_view_times(const struct SurfelView *view, SurfelPassTime each, void *user);
@@ -2732,7 +2814,7 @@ SurfelResult surfel_camera_fit(const double *center,
                                struct SurfelCamera *camera);
 
 /**
- * Opens a device of our own: the loader of Vulkan is looked for by name. `info` may be NULL. Where no device will do, or there is no loader, the answer is `SURFEL_RESULT_NO_DEVICE`.
+ * Opens a device of our own: the loader of Vulkan is looked for by name. `info` may be NULL. Where no device will do, or there is no loader, the answer is `SURFEL_RESULT_NO_DEVICE`; of a name that none has, `SURFEL_RESULT_OPTION`.
  */
 SurfelResult surfel_headless_create(const struct SurfelHeadlessInfo *info,
                                     struct SurfelHeadless **headless);

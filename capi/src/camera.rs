@@ -8,8 +8,8 @@ use surfel::{
 };
 
 use crate::{
+    arrays::array,
     result::{Result, SurfelResult, guard},
-    splats::array,
     structs::{Struct, SurfelStructureType, write},
 };
 

@@ -12,10 +12,10 @@ use surfel::{
 };
 
 use crate::{
+    arrays::array,
     handle::{Out, Place, get, get_mut},
     renderer::{SurfelPreparedScene, SurfelRenderer},
     result::{Failure, SurfelResult, guard},
-    splats::array,
     structs::{Struct, SurfelStructureType, read},
 };
 

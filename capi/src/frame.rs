@@ -10,12 +10,12 @@ use surfel::{
 };
 
 use crate::{
+    arrays::array,
     handle::get,
     images::{SurfelDepthImage, depth_image},
     renderer::SurfelPreparedScene,
     result::{Failure, Result},
     settings::SurfelSettings,
-    splats::array,
     structs::{Struct, SurfelStructureType, read},
 };
 

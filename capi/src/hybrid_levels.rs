@@ -8,11 +8,11 @@ use surfel::{
 };
 
 use crate::{
+    arrays::array,
     handle::get_mut,
     levels::{SurfelErrorBall, SurfelLevels, leveled},
     result::{Failure, Result, SurfelResult, guard},
     scene::SurfelScene,
-    splats::array,
     structs::{Struct, SurfelStructureType, read},
 };
 

@@ -9,10 +9,11 @@ use surfel::{
 };
 
 use crate::{
+    arrays::copied,
     handle::get_mut,
     result::{Failure, Result, SurfelResult, guard},
     scene::SurfelScene,
-    splats::{SurfelSplats, copied, object},
+    splats::{SurfelSplats, object},
     structs::{Struct, SurfelStructureType, read},
 };
 

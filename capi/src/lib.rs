@@ -3,6 +3,7 @@
 //! Each function is a border: arguments are checked as far as C lets them be, an error becomes a code and a sentence, and no panic leaves
 //! (`result.rs`). Structs that C fills grow at their ends (`structs.rs`).
 
+mod arrays;
 mod handle;
 mod images;
 mod structs;
@@ -48,12 +49,16 @@ mod settings;
 mod frame;
 mod view;
 
+mod needs;
+
 mod measured;
 
 mod ahead;
 mod pick;
 
 mod camera;
+
+mod picture;
 
 mod headless;
 

@@ -8,10 +8,10 @@ use surfel::{
 };
 
 use crate::{
+    arrays::array,
     handle::{get_mut, text},
     renderer::SurfelPreparedScene,
     result::{Result, SurfelResult, guard},
-    splats::array,
 };
 
 /// # Safety

@@ -134,11 +134,11 @@ mod of_files {
 
     use super::*;
     use crate::{
+        arrays::copied,
         description::{built, described},
         handle::text,
         listener::Listener,
         result::Failure,
-        splats::copied,
         structs::read,
     };
 

@@ -181,9 +181,9 @@ mod of_description {
 
     use super::*;
     use crate::{
+        arrays::{array, colors_of, copied},
         description::{built, described},
         handle::text,
-        splats::{array, colors_of, copied},
     };
 
     /// # Safety

@@ -1,7 +1,7 @@
 //! Device memory that a host gives, by two functions.
 
 use std::{
-    ffi::{CString, c_char, c_void},
+    ffi::{CStr, CString, c_char, c_void},
     ptr::NonNull,
     sync::Arc,
 };
@@ -108,23 +108,32 @@ unsafe impl Send for OfHost {}
 // SAFETY: as above.
 unsafe impl Sync for OfHost {}
 
+/// What is asked of a host, with a name that lives as long.
+pub fn request_of(
+    name: &CStr,
+    requirements: vk::MemoryRequirements,
+    (touched_by, linear): (MemoryUse, bool),
+) -> SurfelMemoryRequest {
+    let vk::MemoryRequirements { size: bytes, alignment, memory_type_bits } = requirements;
+    SurfelMemoryRequest {
+        s_type: SurfelStructureType::MemoryRequest as u32,
+        size: size_of::<SurfelMemoryRequest>() as u32,
+        p_next: std::ptr::null(),
+        name: name.as_ptr(),
+        bytes,
+        alignment,
+        memory_type_bits,
+        linear: linear.into(),
+        written_by_host: (touched_by == MemoryUse::Upload).into(),
+        read_by_host: (touched_by == MemoryUse::Readback).into(),
+    }
+}
+
 // SAFETY: the contract of the header is that of the trait.
 unsafe impl HostMemory for OfHost {
     fn allocate(&self, request: &MemoryRequest<'_>) -> std::result::Result<HostAllocation, vk::Result> {
         let name = CString::new(request.name).unwrap_or_default();
-        let vk::MemoryRequirements { size: bytes, alignment, memory_type_bits } = request.requirements;
-        let request = SurfelMemoryRequest {
-            s_type: SurfelStructureType::MemoryRequest as u32,
-            size: size_of::<SurfelMemoryRequest>() as u32,
-            p_next: std::ptr::null(),
-            name: name.as_ptr(),
-            bytes,
-            alignment,
-            memory_type_bits,
-            linear: request.linear.into(),
-            written_by_host: (request.touched_by == MemoryUse::Upload).into(),
-            read_by_host: (request.touched_by == MemoryUse::Readback).into(),
-        };
+        let request = request_of(&name, request.requirements, (request.touched_by, request.linear));
         let mut given = SurfelAllocation {
             memory: vk::DeviceMemory::null(),
             offset: 0,

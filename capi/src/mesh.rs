@@ -10,10 +10,10 @@ use surfel::{
 };
 
 use crate::{
+    arrays::{colors_of, copied},
     handle::{get_mut, text},
     result::{Failure, Result, SurfelResult, guard},
     scene::SurfelScene,
-    splats::{colors_of, copied},
     structs::{Struct, SurfelStructureType, read},
 };
 

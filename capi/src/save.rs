@@ -64,11 +64,11 @@ mod to_files {
 
     use super::*;
     use crate::{
+        arrays::array,
         contents::numbered,
         handle::{get, text},
         listener::Listener,
         load::path_of,
-        splats::array,
     };
 
     /// # Safety

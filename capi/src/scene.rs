@@ -10,12 +10,13 @@ use surfel::{
 };
 
 use crate::{
+    arrays::array,
     handle::{Out, destroy, get_mut, text},
     lights::light as light_of,
     result::{Result, SurfelResult, guard},
     rooms::room,
     settings::set,
-    splats::{SurfelSplats, array, object},
+    splats::{SurfelSplats, object},
     structs::{Struct, SurfelStructureType, read},
 };
 

@@ -8,12 +8,12 @@ use surfel::{
 };
 
 use crate::{
+    arrays::array,
     frame::{SceneList, SurfelFrame, with_frame},
     handle::{Out, Place, destroy, get, get_mut, null},
     images::{SurfelHostImage, host_image},
     renderer::SurfelRenderer,
     result::{Failure, Result, SurfelResult, guard},
-    splats::array,
     structs::{Struct, SurfelStructureType, read},
 };
 

@@ -5,13 +5,24 @@ typedef struct Allocator {
     Engine *engine;
     VkPhysicalDeviceMemoryProperties types;
     unsigned asked, live, left;
+    /* A sum of all that was asked for, in its order. */
+    uint64_t sum, bytes;
 } Allocator;
+
+/* Of two lists in one order the sums are the same; of others hardly ever. */
+static void add(uint64_t *sum, const SurfelMemoryRequest *request) {
+    const uint64_t words[] = {request->bytes, request->alignment, request->memoryTypeBits, request->linear, request->writtenByHost, request->readByHost};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) *sum = *sum * 1099511628211u + words[i];
+    for (const char *c = request->name; *c; c++) *sum = *sum * 1099511628211u + (unsigned char)*c;
+}
 
 static VkResult allocate(void *user, const SurfelMemoryRequest *request, SurfelAllocation *allocation) {
     Allocator *own = user;
     TRUE(request->sType == SURFEL_STRUCTURE_TYPE_MEMORY_REQUEST && request->size == sizeof *request);
     TRUE(request->name[0] != 0 && request->bytes > 0 && !(request->writtenByHost && request->readByHost));
     own->asked++;
+    add(&own->sum, request);
+    own->bytes += request->bytes;
     if (own->left == 0) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
     own->left--;
     const int is_mapped = request->writtenByHost || request->readByHost;
@@ -44,6 +55,74 @@ static unsigned left_after(SurfelDevice *device, const Allocator *own) {
     return own->live;
 }
 
+typedef struct Told {
+    unsigned pieces;
+    uint64_t sum, bytes;
+} Told;
+
+static void tell(void *user, const SurfelMemoryRequest *request) {
+    Told *told = user;
+    TRUE(request->sType == SURFEL_STRUCTURE_TYPE_MEMORY_REQUEST && request->size == sizeof *request);
+    add(&told->sum, request);
+    told->pieces++;
+    told->bytes += request->bytes;
+}
+
+/* What scene and view are told to need is what they ask for. */
+static void needs_are_met(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, Allocator *own) {
+    const double centers[] = {-1, 0, 0, 1, 0, 0};
+    const float normals[] = {0, 0, 1, 0, 0, 1}, radii[] = {1, 1}, colors[] = {1, 0, 0, 1, 0, 1, 0, 1};
+    const SurfelSplats splats = {.sType = SURFEL_STRUCTURE_TYPE_SPLATS, .size = sizeof splats, .count = 2, .centers = centers,
+                                 .normals = normals, .radii = radii, .colors = colors, .colorCount = 2};
+    SurfelScene *scene;
+    OK(surfel_scene_create(NULL, &scene));
+    OK(surfel_scene_add_splats(scene, &splats));
+    SurfelMemoryNeeds needs = {.sType = SURFEL_STRUCTURE_TYPE_MEMORY_NEEDS, .size = sizeof needs};
+    Told told = {0};
+    SurfelPreparedScene *measured, *prepared;
+    IS(INVALID_ARGUMENT, surfel_scene_needs(NULL, scene, 1, tell, &told, &needs, NULL), "renderer is NULL");
+    IS(INVALID_ARGUMENT, surfel_scene_needs(renderer, NULL, 1, tell, &told, &needs, &measured), "scene is NULL");
+    TRUE(measured == NULL);
+    OK(surfel_scene_needs(renderer, scene, 1, NULL, NULL, NULL, NULL));
+    OK(surfel_scene_needs(renderer, scene, 1, tell, &told, &needs, &measured));
+    TRUE(told.pieces == 3 && needs.all.pieces == 3 && needs.ofDevice.pieces == 2 && needs.writtenByHost.pieces == 1);
+    TRUE(needs.all.bytes >= told.bytes && needs.ofDevice.bytes >= 2 * 32 + 2 * 8 && needs.ofDevice.memoryTypeBits != 0);
+    TRUE(own->asked == 0);
+    OK(surfel_scene_needs(renderer, scene, 4096, NULL, NULL, &needs, NULL));
+    TRUE(needs.all.alignment == 4096 && needs.all.bytes > 2 * 4096 && needs.all.bytes < 3 * 4096);
+
+    const VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering, .colorFormats = &format,
+                                       .colorFormatCount = 1, .depthFormat = VK_FORMAT_D32_SFLOAT};
+    const SurfelPreparedScene *scenes[] = {measured};
+    const SurfelFrame frame = frame_of(scenes, NULL);
+    Told of_view = {0};
+    OK(surfel_view_needs(renderer, &rendering, &frame, 1, tell, &of_view, &needs));
+    TRUE(of_view.pieces == needs.all.pieces && of_view.pieces > 4 && needs.all.bytes >= of_view.bytes);
+    IS(INVALID_ARGUMENT, surfel_view_needs(renderer, NULL, &frame, 1, tell, &of_view, &needs), "rendering is NULL");
+    needs.size = 8;
+    IS(INVALID_ARGUMENT, surfel_view_needs(renderer, &rendering, &frame, 1, NULL, NULL, &needs), "needs: size 8");
+    TRUE(own->asked == 0);
+
+    SurfelView *view = view_of(renderer);
+    engine_begin(engine);
+    IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "is on no device: it was measured alone");
+    OK(surfel_upload(renderer, engine->commands, scene, &prepared));
+    TRUE(own->asked == told.pieces && own->bytes == told.bytes && own->sum == told.sum);
+    own->sum = own->bytes = own->asked = 0;
+    scenes[0] = prepared;
+    OK(surfel_view_prepare(view, engine->commands, &frame));
+    TRUE(own->asked == of_view.pieces && own->bytes == of_view.bytes && own->sum == of_view.sum);
+    engine_begin(engine);
+    surfel_view_destroy(view);
+    surfel_prepared_scene_destroy(prepared);
+    surfel_prepared_scene_destroy(measured);
+    surfel_scene_destroy(scene);
+    uint64_t epoch;
+    OK(surfel_device_end_epoch(device, &epoch));
+    OK(surfel_device_epoch_done(device, epoch));
+}
+
 void memory(Engine *engine, SurfelImport host) {
     enum { ALL = 1000000 };
     Allocator own = {.engine = engine, .left = ALL};
@@ -58,6 +137,7 @@ void memory(Engine *engine, SurfelImport host) {
     OK(surfel_device_import(&host, &device));
     SurfelRenderer *renderer;
     OK(surfel_renderer_create(device, NULL, &renderer));
+    needs_are_met(engine, device, renderer, &own);
     SurfelPreparedScene *ball = upload(engine, device, renderer, 1);
     TRUE(own.asked > 1 && own.live > 1);
     SurfelMemoryReport report = {.sType = SURFEL_STRUCTURE_TYPE_MEMORY_REPORT, .size = sizeof report};

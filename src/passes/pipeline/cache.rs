@@ -184,10 +184,7 @@ impl Shaders {
         unsafe { self.stand_ins.make_ready(commands) }
     }
 
-    /// Adds what memory a first frame will ask for, of what stands in for what it has not, to what is needed.
-    ///
-    /// # Errors
-    /// As [`MemoryNeeds::buffer`].
+    /// Adds what memory a first frame will ask for to what is needed: as [`StandIns::tell`].
     pub(crate) fn tell(&self, needs: &mut MemoryNeeds) -> Result<()> {
         self.stand_ins.tell(needs)
     }

@@ -6,8 +6,8 @@ use ash::vk;
 use surfel::{
     Scene, Settings,
     embed::{
-        Device, HostAllocation, HostMemory, Import, MemoryNeeds, MemoryPiece, MemoryRequest, Placed, Renderer,
-        Rendering, View, ViewFrame,
+        Device, HostAllocation, HostMemory, Import, MemoryNeeds, MemoryPiece, MemoryRequest, Placed,
+        Renderer, Rendering, View, ViewFrame,
     },
     geometry::sharp::{SharpOptions, sharp_splats},
     hard_scenes::parts,
@@ -107,8 +107,8 @@ fn scenes_and_views_ask_for_what_they_are_told_to_need_and_nothing_else() {
             }
             let (needs, measured) = renderer.scene_needs(&scene).unwrap();
             assert_eq!((listing.take().len(), measured.bytes()), (0, 0), "{name}");
-            // Near, far, and among the splats, two of them twice: the second one is tinted.
-            for (number, step) in [20, 0, 135].into_iter().enumerate() {
+            // From near, from afar, where it is tinted, and among the splats.
+            for (number, step) in [60, 0, 135].into_iter().enumerate() {
                 let camera = on_the_way(settings.size_px).nth(step).unwrap();
                 let tint = if number == 1 { [0.5, 1.0, 1.0, 1.0] } else { [1.0; 4] };
                 let hides = Some(beside.hides());
@@ -154,7 +154,7 @@ fn one_block_of_the_size_that_is_told_holds_a_scene_and_a_view_to_the_byte() {
     let engine = Engine::new(REVERSED);
     let scene = of_splats(3000, true, 1.0);
     let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
-    let camera = on_the_way(SIZE_PX).nth(20).unwrap();
+    let camera = on_the_way(SIZE_PX).nth(60).unwrap();
     let rendering = Rendering { color_formats: vec![COLOR_FORMAT], ..Rendering::default() };
 
     // By a device that nothing is taken from.
@@ -184,7 +184,8 @@ fn one_block_of_the_size_that_is_told_holds_a_scene_and_a_view_to_the_byte() {
     let uploaded = unsafe { renderer.upload(engine.commands, &scene) }.unwrap();
     let placed = [Placed::at_home(&uploaded)];
     // SAFETY: as above.
-    unsafe { view.prepare(&renderer, engine.commands, &ViewFrame::new(&placed, &camera, &settings)) }.unwrap();
+    unsafe { view.prepare(&renderer, engine.commands, &ViewFrame::new(&placed, &camera, &settings)) }
+        .unwrap();
     engine.begin_rendering(true);
     // SAFETY: inside of the rendering that the view was made for.
     unsafe { view.draw(&renderer, engine.commands) }.unwrap();
