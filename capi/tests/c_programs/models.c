@@ -166,7 +166,10 @@ static void sharp(const char *file) {
     TRUE(splats.count == 12 && splats.tangentsS != NULL && splats.normals == NULL && splats.closed);
     OK(surfel_scene_object_clips(scene, 0, 0, splats.count, clips));
     unsigned curves = 0;
-    for (uint64_t i = 0; i < splats.count; i++) curves += clips[i].curveCount;
+    for (uint64_t i = 0; i < splats.count; i++) {
+        curves += clips[i].curveCount;
+        for (uint32_t j = 0; j < clips[i].curveCount; j++) TRUE(clips[i].curves[j].startRad != clips[i].curves[j].endRad);
+    }
     TRUE(curves >= 24);
     SurfelClip none = {.curveCount = 77};
     OK(surfel_scene_object_clips(scene, 2, 0, 1, &none));
