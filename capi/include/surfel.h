@@ -1361,6 +1361,60 @@ typedef struct SurfelDescription {
 } SurfelDescription;
 
 /**
+ * A camera by its eye and what it looks at, for `surfel_headless_render`: a host with a frame of its own has matrices (`SurfelFrame`).
+ */
+typedef struct SurfelCamera {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_CAMERA`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelCamera)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * The eye, x, y, z.
+   */
+  double eye[3];
+  /**
+   * The point in the middle of the picture, another one than the eye.
+   */
+  double target[3];
+  /**
+   * The direction that is up in the picture; all 0: +y.
+   */
+  double up[3];
+  /**
+   * The vertical field of view in radians; 0: 45 degrees.
+   */
+  double fovYRad;
+  /**
+   * The height of the whole picture in the world's unit: rays are parallel, and the field of view means nothing. 0: they meet in the eye.
+   */
+  double orthographicHeight;
+  /**
+   * The depth of the near plane, in front of which nothing is drawn; 0: a millionth of the distance from eye to target, or the eye where rays are parallel.
+   */
+  double near;
+  /**
+   * Of a picture in pieces, the size of the whole in pixels, of which this is the camera; 0: what is drawn is the whole.
+   */
+  uint32_t wholeWidth;
+  /**
+   * Its height.
+   */
+  uint32_t wholeHeight;
+  /**
+   * Where the corner of the piece lies in the whole, in pixels.
+   */
+  double cornerPx[2];
+} SurfelCamera;
+
+/**
  * Points on surfaces, by arrays, as scanners see them: normals and radii that they don't have are found from the points nearby.
  */
 typedef struct SurfelPoints {
@@ -2075,60 +2129,6 @@ typedef struct SurfelPicked {
 } SurfelPicked;
 
 /**
- * A camera by its eye and what it looks at, for `surfel_headless_render`: a host with a frame of its own has matrices (`SurfelFrame`).
- */
-typedef struct SurfelCamera {
-  /**
-   * `SURFEL_STRUCTURE_TYPE_CAMERA`.
-   */
-  uint32_t sType;
-  /**
-   * `sizeof(SurfelCamera)`.
-   */
-  uint32_t size;
-  /**
-   * NULL.
-   */
-  const void *pNext;
-  /**
-   * The eye, x, y, z.
-   */
-  double eye[3];
-  /**
-   * The point in the middle of the picture, another one than the eye.
-   */
-  double target[3];
-  /**
-   * The direction that is up in the picture; all 0: +y.
-   */
-  double up[3];
-  /**
-   * The vertical field of view in radians; 0: 45 degrees.
-   */
-  double fovYRad;
-  /**
-   * The height of the whole picture in the world's unit: rays are parallel, and the field of view means nothing. 0: they meet in the eye.
-   */
-  double orthographicHeight;
-  /**
-   * The depth of the near plane, in front of which nothing is drawn; 0: a millionth of the distance from eye to target, or the eye where rays are parallel.
-   */
-  double near;
-  /**
-   * Of a picture in pieces, the size of the whole in pixels, of which this is the camera; 0: what is drawn is the whole.
-   */
-  uint32_t wholeWidth;
-  /**
-   * Its height.
-   */
-  uint32_t wholeHeight;
-  /**
-   * Where the corner of the piece lies in the whole, in pixels.
-   */
-  double cornerPx[2];
-} SurfelCamera;
-
-/**
  * How a device of our own is opened.
  */
 typedef struct SurfelHeadlessInfo {
@@ -2473,6 +2473,18 @@ SurfelResult surfel_scene_add_file_of_memory(struct SurfelScene *scene,
                                              uint64_t count,
                                              const struct SurfelLoadOptions *options,
                                              const struct SurfelDescription *description);
+
+/**
+ * Tells the camera of a scene file for a picture of this size, of which what the file leaves open comes from `scene`, into which it was added; and sets of `settings`, which may be NULL, what the file says of the
+ * picture. `options` may be NULL.
+ */
+SurfelResult surfel_scene_file_camera(const struct SurfelScene *scene,
+                                      const char *path,
+                                      const struct SurfelLoadOptions *options,
+                                      uint32_t width,
+                                      uint32_t height,
+                                      struct SurfelCamera *camera,
+                                      struct SurfelSettings *settings);
 
 /**
  * Adds what `description` makes of a mesh: splats at its vertices or spread over it, its triangles, or both. NULL: what shows it best. Arrays are copied. `listener` may be NULL.

@@ -87,7 +87,7 @@ pub unsafe extern "C" fn surfel_camera_fit(
 
 /// # Safety
 /// As [`write`].
-unsafe fn fill(camera: *mut SurfelCamera, made: &Camera) -> Result<()> {
+pub unsafe fn fill(camera: *mut SurfelCamera, made: &Camera) -> Result<()> {
     let [whole_width, whole_height] = made.window.whole_px.unwrap_or_default();
     let filled = SurfelCamera {
         s_type: 0,

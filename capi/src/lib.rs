@@ -31,6 +31,8 @@ mod listener;
 
 mod description;
 
+mod load_options;
+
 mod load;
 
 mod made;

@@ -1,66 +1,16 @@
 //! Models of files: on disk, or in the host's memory.
 
-use std::ffi::{c_char, c_void};
-
-use surfel::ash::vk;
+use std::ffi::c_char;
 
 use crate::{
+    camera::SurfelCamera,
     description::SurfelDescription,
-    handle::{get_mut, null},
-    listener::SurfelListener,
+    handle::null,
+    load_options::SurfelLoadOptions,
     result::{Result, SurfelResult, guard},
     scene::SurfelScene,
-    structs::{Struct, SurfelStructureType},
+    settings::SurfelSettings,
 };
-
-/// How files are read. Of each limit 0 is the default: as much as any file of use has.
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct SurfelLoadOptions {
-    /// `SURFEL_STRUCTURE_TYPE_LOAD_OPTIONS`.
-    pub s_type: u32,
-    /// `sizeof(SurfelLoadOptions)`.
-    pub size: u32,
-    /// NULL.
-    pub p_next: *const c_void,
-    /// What the columns of rows of numbers are, by the words of `surfel render --columns`: `x,y,z,-,r,g,b`; NULL: as the file tells it.
-    pub columns: *const c_char,
-    /// Who is told how far it is, and what was noticed; NULL: nobody.
-    pub listener: *const SurfelListener,
-    /// Files that a file names may lie outside of its folder.
-    pub allow_outside: vk::Bool32,
-    /// 0; else it is refused.
-    pub reserved: u32,
-    /// Points or vertices at most.
-    pub most_points: u64,
-    /// Triangles at most.
-    pub most_faces: u64,
-    /// Bytes of a line of text at most.
-    pub most_line_bytes: u64,
-    /// Bytes of a header of text at most.
-    pub most_header_bytes: u64,
-    /// Corners of a polygon at most.
-    pub most_list_items: u64,
-    /// Bytes of standard input, of which no size is known beforehand.
-    pub most_piped_bytes: u64,
-    /// Bytes to which the compressed points of any LAZ or PCD file may expand, however small it is.
-    pub expanded_bytes: u64,
-    /// The same of files that are compressed as a whole.
-    pub unpacked_bytes: u64,
-    /// Bytes to which each byte of a larger compressed file may expand beyond these.
-    pub expansion: u64,
-    /// The same of the records of LAZ files.
-    pub laz_expansion: u64,
-}
-
-// SAFETY: it begins so, and a test looks for padding.
-unsafe impl Struct for SurfelLoadOptions {
-    const TYPE: SurfelStructureType = SurfelStructureType::LoadOptions;
-
-    fn reserved(&self) -> u32 {
-        self.reserved
-    }
-}
 
 /// Adds what a file holds, as `surfel render` shows it: splats, a mesh or points of any format that the library was built with, or all
 /// objects and lights of a scene file (`.toml`). `path` is UTF-8; on Unix any bytes that are a path. Files that a file names are opened in
@@ -105,6 +55,24 @@ pub unsafe extern "C" fn surfel_scene_add_file_of_memory(
     })
 }
 
+/// Tells the camera of a scene file for a picture of this size, of which what the file leaves open comes from `scene`, into which it was added; and sets of `settings`, which may be NULL, what the file says of the
+/// picture. `options` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_scene_file_camera(
+    scene: *const SurfelScene,
+    path: *const c_char,
+    options: *const SurfelLoadOptions,
+    width: u32,
+    height: u32,
+    camera: *mut SurfelCamera,
+    settings: *mut SurfelSettings,
+) -> SurfelResult {
+    guard("surfel_scene_file_camera", || {
+        // SAFETY: the contract of the header.
+        unsafe { file_camera(scene, (path, options), [width, height], camera, settings) }
+    })
+}
+
 /// A path of C's.
 ///
 /// # Safety
@@ -123,64 +91,24 @@ pub unsafe fn path_of<'a>(path: *const c_char, name: &str) -> Result<&'a std::pa
 }
 
 #[cfg(feature = "files")]
-use of_files::{add_bytes, add_file};
+use of_files::{add_bytes, add_file, file_camera};
 
 #[cfg(feature = "files")]
 mod of_files {
     use surfel::{
-        compose::{compose, make, make_loaded},
-        load::{Limits, LoadOptions, is_scene_file, load_bytes},
+        compose::{ball_of_target, compose, make, make_loaded},
+        load::{is_scene_file, load_bytes, load_scene_file},
     };
 
     use super::*;
     use crate::{
         arrays::copied,
+        camera::fill,
         description::{built, described},
-        handle::text,
-        listener::Listener,
+        handle::{get, get_mut},
+        load_options::options_of,
         result::Failure,
-        structs::read,
     };
-
-    /// How C wants files to be read, and who listens.
-    ///
-    /// # Safety
-    /// `given` is NULL or leads to as much as it says.
-    unsafe fn options_of(given: *const SurfelLoadOptions) -> Result<(LoadOptions, Listener)> {
-        if given.is_null() {
-            // SAFETY: nobody listens.
-            return Ok((LoadOptions::default(), unsafe { Listener::new(std::ptr::null()) }?));
-        }
-        // SAFETY: this function's contract, here and below.
-        let given = unsafe { read(given, "options") }?;
-        let or = |given: u64, usual: u64| if given == 0 { usual } else { given };
-        let size = |given: u64, usual: usize| match given {
-            0 => usual,
-            _ => usize::try_from(given).unwrap_or(usize::MAX),
-        };
-        let usual = Limits::DEFAULT;
-        let limits = Limits {
-            // Their numbers are kept in 32 bits, whatever is allowed.
-            points: or(given.most_points, usual.points).min(usual.points),
-            faces: or(given.most_faces, usual.faces).min(usual.faces),
-            line_bytes: size(given.most_line_bytes, usual.line_bytes),
-            header_bytes: size(given.most_header_bytes, usual.header_bytes),
-            list_items: size(given.most_list_items, usual.list_items),
-            piped_bytes: or(given.most_piped_bytes, usual.piped_bytes),
-            expanded_bytes: or(given.expanded_bytes, usual.expanded_bytes),
-            unpacked_bytes: or(given.unpacked_bytes, usual.unpacked_bytes),
-            expansion: or(given.expansion, usual.expansion),
-            laz_expansion: or(given.laz_expansion, usual.laz_expansion),
-        };
-        let columns = match given.columns.is_null() {
-            true => None,
-            // SAFETY: as above.
-            false => Some(unsafe { text(given.columns, "columns") }?.parse()?),
-        };
-        let options = LoadOptions { limits, allow_outside: given.allow_outside != vk::FALSE, columns };
-        // SAFETY: as above.
-        Ok((options, unsafe { Listener::new(given.listener) }?))
-    }
 
     /// # Safety
     /// The contract of the header.
@@ -222,6 +150,38 @@ mod of_files {
 
     /// # Safety
     /// The contract of the header.
+    pub unsafe fn file_camera(
+        scene: *const SurfelScene,
+        (path, options): (*const c_char, *const SurfelLoadOptions),
+        size_px: [u32; 2],
+        camera: *mut SurfelCamera,
+        settings: *mut SurfelSettings,
+    ) -> Result<()> {
+        // SAFETY: this function's contract.
+        let (scene, path, (options, _)) =
+            unsafe { (&get(scene, "scene")?.0, path_of(path, "path")?, options_of(options)?) };
+        let settings = match settings.is_null() {
+            true => None,
+            // SAFETY: as above.
+            false => Some(&mut unsafe { get_mut(settings, "settings") }?.0),
+        };
+        let file = load_scene_file(path, &options)?;
+        let mut parts = file.camera.unwrap_or_default();
+        if let Some(name) = &file.camera_target {
+            parts.subject = Some(ball_of_target(scene, name, path)?);
+        }
+        let ball = scene.ball().ok_or_else(|| Failure::invalid("there is nothing in the scene"))?;
+        let made = parts.camera(&ball, size_px)?;
+        // SAFETY: as above.
+        unsafe { fill(camera, &made) }?;
+        if let Some(settings) = settings {
+            *settings = file.picture.over(settings.clone());
+        }
+        Ok(())
+    }
+
+    /// # Safety
+    /// The contract of the header.
     pub unsafe fn add_bytes(
         scene: *mut SurfelScene,
         name: *const c_char,
@@ -247,6 +207,17 @@ unsafe fn add_file(
     _path: *const c_char,
     _options: *const SurfelLoadOptions,
     _description: *const SurfelDescription,
+) -> Result<()> {
+    Err(crate::result::Failure::without_files())
+}
+
+#[cfg(not(feature = "files"))]
+unsafe fn file_camera(
+    _scene: *const SurfelScene,
+    _file: (*const c_char, *const SurfelLoadOptions),
+    _size_px: [u32; 2],
+    _camera: *mut SurfelCamera,
+    _settings: *mut SurfelSettings,
 ) -> Result<()> {
     Err(crate::result::Failure::without_files())
 }

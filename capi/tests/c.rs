@@ -132,7 +132,7 @@ fn a_program_without_a_device_reads_makes_saves_and_draws() {
     let [ply, png, exr, raw] = ["cube.ply", "a.png", "a.exr", "a.raw"].map(|name| folder.child(name));
     fs::create_dir(&below).unwrap();
     let scene_file = below.join("scene.toml");
-    fs::write(&scene_file, "[[object]]\nfile = \"../cube.ply\"\n").unwrap();
+    fs::write(&scene_file, "shading = \"lambert\"\n[camera]\neye = [0, 0, 9]\nfov_deg = 60\n[[object]]\nfile = \"../cube.ply\"\n").unwrap();
     let mut cc = cc(&program);
     let sources = ["alone.c", "models.c"].map(|name| root().join("capi/tests/c_programs").join(name));
     cc.arg(header()).args(sources).arg(libraries().join("libsurfel_c.a"));

@@ -2,12 +2,19 @@
 
 use ash::vk;
 
-use super::{
-    buffer::BufferDesc, device::Device, host_memory::MemoryRequest, image::ImageDesc, memory::MemoryUse,
-};
+use super::{buffer::BufferDesc, device::Device, image::ImageDesc, memory::MemoryUse};
 use crate::error::Result;
 
-/// A piece of device memory that will be asked for, as a [`MemoryRequest`] asks for it.
+/// A piece of device memory that will be asked for, as a [`MemoryRequest`](super::MemoryRequest) asks for it.
+///
+/// ```no_run
+/// use surfel::embed::{MemoryPiece, MemoryUse};
+///
+/// /// What must be mapped.
+/// fn is_mapped(piece: &MemoryPiece) -> bool {
+///     piece.touched_by != MemoryUse::Device
+/// }
+/// ```
 #[derive(Clone, Debug)]
 pub struct MemoryPiece {
     /// For what, in words.
@@ -20,7 +27,19 @@ pub struct MemoryPiece {
     pub linear: bool,
 }
 
-/// All pieces that will be asked for, in their order.
+/// All pieces that will be asked for, in their order: [`crate::Renderer::scene_needs`] and [`crate::Renderer::view_needs`] tell them.
+///
+/// ```no_run
+/// use surfel::{Scene, ash::vk, embed::{MemoryNeeds, MemoryUse, Placed, Renderer, Rendering, ViewFrame}};
+///
+/// /// One block for a scene and a view of it, before either is there; `granularity` is the device's `bufferImageGranularity`.
+/// fn block(renderer: &Renderer, scene: &Scene, rendering: &Rendering, like: &ViewFrame<'_>, granularity: u64) -> surfel::Result<vk::MemoryRequirements> {
+///     let (mut needs, measured) = renderer.scene_needs(scene)?;
+///     let placed = [Placed::at_home(&measured)];
+///     needs.pieces.extend(renderer.view_needs(rendering, &ViewFrame { scenes: &placed, ..*like })?.pieces);
+///     Ok(needs.block(granularity, |piece| piece.touched_by == MemoryUse::Device))
+/// }
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct MemoryNeeds {
     /// One by one.
@@ -91,17 +110,6 @@ impl MemoryNeeds {
         (touched_by, linear): (MemoryUse, bool),
     ) {
         self.pieces.push(MemoryPiece { name: name.to_owned(), requirements, touched_by, linear });
-    }
-}
-
-impl MemoryPiece {
-    /// Whether it is what is asked for.
-    pub fn is(&self, request: &MemoryRequest<'_>) -> bool {
-        let words = |needs: vk::MemoryRequirements| (needs.size, needs.alignment, needs.memory_type_bits);
-        self.name == request.name
-            && words(self.requirements) == words(request.requirements)
-            && self.touched_by == request.touched_by
-            && self.linear == request.linear
     }
 }
 

@@ -32,6 +32,7 @@ const INTERFACE: &[(&[&str], &[&str])] = &[
         &["Profile", "FrameProfile", "PassProfile", "PassFigures", "PassCounts"],
     ),
     (&["vk/"], &["Limits", "Device", "Features", "FeaturesApart", "Import", "Requirements", "requirements"]),
+    (&["vk/memory_needs.rs"], &["MemoryNeeds", "MemoryPiece"]),
     (&["vk/budget.rs"], &["MemoryHeap", "MemoryHeaps", "MemoryInUse"]),
     (&["vk/memory.rs", "vk/host_memory.rs"], &["HostMemory", "MemoryRequest", "MemoryUse", "HostAllocation"]),
     (

@@ -234,6 +234,24 @@ static void scene_files(const char *scene_file) {
     TRUE(contents_of(scene).objects == 0);
     OK(surfel_scene_add_file_as(scene, scene_file, &options, NULL));
     TRUE(contents_of(scene).objects == 1 && contents_of(scene).splats == 12);
+    /* What it says of camera and picture, and what it leaves open. */
+    SurfelCamera camera = {.sType = SURFEL_STRUCTURE_TYPE_CAMERA, .size = sizeof camera};
+    SurfelSettings *settings;
+    OK(surfel_settings_create(&settings));
+    IS(INPUT, surfel_scene_file_camera(scene, scene_file, NULL, 64, 48, &camera, settings), "outside");
+    OK(surfel_scene_file_camera(scene, scene_file, &options, 64, 48, &camera, NULL));
+    TRUE(camera.eye[2] == 9 && camera.target[2] == 0 && camera.up[1] == 1 && camera.fovYRad > 1.04 && camera.fovYRad < 1.05);
+    char shading[16];
+    uint64_t length;
+    OK(surfel_settings_get(settings, "shading", shading, sizeof shading, &length));
+    TRUE(strcmp(shading, "phong") == 0);
+    OK(surfel_scene_file_camera(scene, scene_file, &options, 64, 48, &camera, settings));
+    OK(surfel_settings_get(settings, "shading", shading, sizeof shading, &length));
+    TRUE(strcmp(shading, "lambert") == 0);
+    SurfelScene *nothing = empty();
+    IS(INVALID_ARGUMENT, surfel_scene_file_camera(nothing, scene_file, &options, 64, 48, &camera, NULL), "there is nothing in the scene");
+    surfel_scene_destroy(nothing);
+    surfel_settings_destroy(settings);
     surfel_scene_destroy(scene);
 }
 
