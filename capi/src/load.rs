@@ -5,7 +5,6 @@ use std::ffi::c_char;
 use crate::{
     camera::SurfelCamera,
     description::SurfelDescription,
-    handle::null,
     load_options::SurfelLoadOptions,
     result::{Result, SurfelResult, guard},
     scene::SurfelScene,
@@ -77,9 +76,10 @@ pub unsafe extern "C" fn surfel_scene_file_camera(
 ///
 /// # Safety
 /// `path` is NULL or ends with a zero.
+#[cfg(feature = "files")]
 pub unsafe fn path_of<'a>(path: *const c_char, name: &str) -> Result<&'a std::path::Path> {
     if path.is_null() {
-        return Err(null(name));
+        return Err(crate::handle::null(name));
     }
     // SAFETY: this function's contract.
     let path = unsafe { std::ffi::CStr::from_ptr(path) };
