@@ -61,8 +61,8 @@ impl View {
         renderer.check_settings(&settings)?;
         let (camera, depth) = Self::camera_of(frame, frame.camera)?;
         self.check_order(depth)?;
-        if to.is_recorded() && frame.scenes.iter().any(|placed| placed.scene.is_nowhere()) {
-            return Err(Error::option("scene", "is on no device: it was measured alone"));
+        if to.is_recorded() {
+            frame.scenes.iter().try_for_each(|placed| placed.scene.check_is_somewhere())?;
         }
         renderer.check_frame(frame.scenes, &camera, &settings)?;
         let settings = to.settings(settings);

@@ -127,6 +127,15 @@ impl PreparedScene {
         self.device.is_none()
     }
 
+    /// # Errors
+    /// Nothing of it can be drawn, nor picked: it is on no device.
+    pub(crate) fn check_is_somewhere(&self) -> Result<()> {
+        match self.is_nowhere() {
+            true => Err(Error::option("scene", "is on no device: it was measured alone")),
+            false => Ok(()),
+        }
+    }
+
     /// Whether anything of it is transparent, so that it is drawn in layers.
     pub fn is_transparent(&self) -> bool {
         let splats = self.chunks.iter().any(|chunk| chunk.transparent);

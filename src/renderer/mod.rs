@@ -225,6 +225,7 @@ impl Renderer {
         frame: &SceneFrame<'_>,
     ) -> Result<Arc<Plan>> {
         let SceneFrame { seen, target, readbacks, profile } = *frame;
+        seen.scene.check_is_somewhere()?;
         let arena = slot.take_arena();
         let record = |execution: Execution<'_>, graph: &Graph<'_, Body<'_>>, imports: &Imports<'_>| {
             // SAFETY: this function's contract.

@@ -28,6 +28,7 @@ impl Renderer {
         pixel: [u32; 2],
     ) -> Result<PickPlan<'a>> {
         // Whatever cannot be drawn cannot be seen.
+        scene.check_is_somewhere()?;
         let arena = Arena::new();
         let frame = self.frame_plan(&arena, &[Placed::at_home(scene)], camera, settings)?;
         let [width, height] = settings.size_px;
