@@ -29,6 +29,8 @@ mod hybrid_levels;
 
 mod listener;
 
+// Without files nothing reads one, but the header has it.
+#[cfg_attr(not(feature = "files"), expect(dead_code))]
 mod description;
 
 mod load_options;

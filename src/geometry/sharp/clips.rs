@@ -18,7 +18,7 @@ use super::{
     ellipse::ellipse,
     fit::fit,
     model::{Model, directed},
-    rim::{STEPS, cut_at_rim, distance_to_side, inside, part_inside},
+    rim::{SHALLOW, STEPS, cut_at_rim, distance_to_side, inside, part_inside},
 };
 use crate::{
     geometry::clip::removes,
@@ -26,7 +26,7 @@ use crate::{
 };
 
 /// The most triangles that are looked at for one ellipse.
-const MOST_TRIANGLES: usize = 48;
+const MOST_TRIANGLES: usize = 64;
 
 /// Cosine of 30°: over a triangle that is bent by more, an ellipse would stick out, though there is no ridge. It ends at the side between them.
 const COS_BENT: f64 = 0.866;
@@ -146,7 +146,7 @@ fn find(model: &Model<'_>, triangle: usize, flat: &dyn Fn(DVec3) -> DVec3) -> (V
                 continue;
             }
             let [a, b] = [from, to].map(|vertex| flat(model.positions[vertex as usize]).truncate());
-            let within = distance_to_side(a, b) < 1.0 - 1e-9;
+            let within = distance_to_side(a, b) < 1.0 - SHALLOW;
             let Some(beyond) = model.edges.beyond(from, to).filter(|_| within) else { continue };
             if model.normals[beyond].dot(normal) < COS_BENT {
                 let ends = [from, to].map(|vertex| model.positions[vertex as usize]);

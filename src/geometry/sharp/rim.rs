@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::conic::Conic;
 
 /// What lies less inside of the rim, in radii, is not cut off.
-const SHALLOW: f64 = 1e-3;
+pub(super) const SHALLOW: f64 = 1e-3;
 
 /// In how many steps a curve is looked along.
 pub(super) const STEPS: u32 = 32;

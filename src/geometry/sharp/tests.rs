@@ -36,6 +36,20 @@ fn places(splats: &Splats) -> Vec<(usize, DVec3)> {
     places
 }
 
+/// All triangles of a fan meet in one corner, where an ellipse touches each of them: no ridge beyond these cuts it.
+#[test]
+fn a_fan_is_a_splat_for_each_of_its_triangles() {
+    for sides in [60, 512, 3000] {
+        let mut positions = vec![DVec3::ZERO];
+        let rim = |i: u32| DVec2::from_angle(TAU * f64::from(i) / f64::from(sides)).extend(0.0);
+        positions.extend((0..sides).map(rim));
+        let triangles = (0..sides).map(|i| [0, 1 + i, 1 + (i + 1) % sides]).collect();
+        let mesh = Mesh { positions, triangles, ..Mesh::default() };
+        let (splats, report) = sharp_splats(&mesh, &SharpOptions::default(), &()).unwrap();
+        assert_eq!((splats.len(), report.cut_triangles, report.crowded), (sides as usize, 0, 0), "{sides}");
+    }
+}
+
 #[test]
 fn a_box_of_few_splats_has_no_ears_and_no_holes() {
     for count in [12, 30, 100] {
