@@ -262,6 +262,7 @@ fn prepare_one(
             minor_px: view.focal_px * minor,
             h_px: view.focal_px * h,
             left_out,
+            in_layers: opacity == Opacity::Transparent,
         }),
         least_weight: settings.floors().weight,
         low_pass,
