@@ -55,7 +55,7 @@ impl MemoryNeeds {
             let vk::MemoryRequirements { size, alignment, memory_type_bits } = piece.requirements;
             let alignment = alignment.max(granularity).max(1);
             vk::MemoryRequirements {
-                size: block.size.next_multiple_of(alignment) + size,
+                size: block.size.checked_next_multiple_of(alignment).unwrap_or(u64::MAX).saturating_add(size),
                 alignment: block.alignment.max(alignment),
                 memory_type_bits: block.memory_type_bits & memory_type_bits,
             }
@@ -138,6 +138,8 @@ mod tests {
         assert_eq!(words(1024, &|_| true), (2051, 1024, 0b010));
         assert_eq!(words(1, &|piece| piece.linear), (15, 16, 0b011));
         assert_eq!(words(1, &|_| false), (0, 1, u32::MAX));
+        // No device has as much.
+        assert_eq!(words(u64::MAX, &|_| true).0, u64::MAX);
         assert_eq!(needs.bytes(), 113);
     }
 }
