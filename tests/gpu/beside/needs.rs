@@ -22,7 +22,7 @@ use super::{
     engine::Style,
     memory::OfEngine,
 };
-use crate::common::scenes;
+use crate::common::{PICTURE, scenes, shared};
 
 /// An engine's allocator that takes down what it is asked for.
 struct Listing {
@@ -208,4 +208,13 @@ fn one_block_of_the_size_that_is_told_holds_a_scene_and_a_view_to_the_byte() {
     drop(device);
     block.end();
     assert_eq!(engine.said(), [] as [String; 0]);
+}
+
+#[test]
+fn a_picture_of_a_scene_that_was_only_measured_is_refused() {
+    let mut headless = shared();
+    let (_, measured) = headless.renderer.scene_needs(&of_splats(100, true, 1.0)).unwrap();
+    let settings = Settings { size_px: [8, 8], ..Settings::default() };
+    let refused = headless.render(&measured, &Camera::default(), &settings, PICTURE).map(drop).unwrap_err();
+    assert!(refused.to_string().contains("is on no device"), "{refused}");
 }
