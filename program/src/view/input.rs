@@ -84,6 +84,9 @@ impl Viewer {
             WindowEvent::PinchGesture { delta, .. } => self.zoom(-delta)?,
             WindowEvent::KeyboardInput { event, .. } => {
                 let pressed = event.state == ElementState::Pressed;
+                if pressed {
+                    self.catch_up()?;
+                }
                 let is_written = self.ui.key(&event, self.input.modifiers);
                 if !is_written || !pressed {
                     self.hold(event.physical_key, pressed);
@@ -98,6 +101,14 @@ impl Viewer {
                 }
             }
             _ => {}
+        }
+        Ok(())
+    }
+
+    /// What lies over the picture sees what came before a press: it takes two presses of one frame for one, and what is hidden sees nothing.
+    fn catch_up(&mut self) -> Result<()> {
+        if !self.ui.events.is_empty() {
+            self.run_ui()?;
         }
         Ok(())
     }
@@ -131,6 +142,9 @@ impl Viewer {
     fn button(&mut self, button: MouseButton, state: ElementState) -> Result<()> {
         let (pressed, cursor) = (state == ElementState::Pressed, self.input.cursor);
         let shift = self.input.modifiers.shift_key();
+        if pressed {
+            self.catch_up()?;
+        }
         if self.ui.pointer_button(cursor, button, pressed) {
             self.window.request_redraw();
             return Ok(());

@@ -129,8 +129,9 @@ impl Viewer {
         match Path::read(file) {
             Ok(path) => {
                 self.path = path;
-                self.ui.tell(&format!("a path of {} places; / plays it", self.path.places.len()));
-                self.window.request_redraw();
+                let (name, count) = (surfel::load::file_name(file), self.path.places.len());
+                let places = if count == 1 { "place" } else { "places" };
+                self.tell(&format!("{name}: a path of {count} {places}; / plays it"));
             }
             Err(error) => self.tell(&error.to_string()),
         }

@@ -31,7 +31,8 @@ const MOST_MESSAGES: usize = 6;
 pub struct Ui {
     context: egui::Context,
     pub(super) px_a_point: f32,
-    events: Vec<Event>,
+    /// What it has not seen yet.
+    pub(super) events: Vec<Event>,
     pointer: Pos2,
     /// A button was pressed over it, and is not released yet.
     is_pressed: bool,

@@ -38,6 +38,18 @@ fn camera(screen: &Screen, view: &mut View<'_>) -> Vec<String> {
     line(view).unwrap().split_whitespace().map(str::to_owned).collect()
 }
 
+/// Waits for at least so many pictures that nobody sees, and until no more come. The last is from afar.
+fn wait_for_hidden(view: &mut View<'_>, least: usize) {
+    let mut seen = (0, Instant::now());
+    view.wait("pictures that nobody sees are drawn", |view| {
+        let count = view.printed().lines().filter(|line| line.starts_with("ahead ")).count();
+        if count != seen.0 {
+            seen = (count, Instant::now());
+        }
+        count >= least && seen.1.elapsed() > Duration::from_secs(8)
+    });
+}
+
 #[test]
 fn pipelines_that_never_ran_are_compiled_step_by_step_and_what_changes_meanwhile_is_drawn() {
     let (screen, folder) = (Screen::new(), Folder::new());
@@ -73,6 +85,7 @@ fn pipelines_that_never_ran_are_compiled_step_by_step_and_what_changes_meanwhile
     let turned = words.chain(camera.iter().map(String::as_str)).collect::<Vec<_>>();
     view.wait_for(&render(&folder, &turned));
     // Nothing is left that never ran.
+    wait_for_hidden(&mut view, 1);
     let printed = view.printed().len();
     screen.drag([160, 120], [200, 110], 1);
     view.wait("a picture comes", |view| frames(&view.printed(), printed).contains(&"whole"));
@@ -147,16 +160,7 @@ fn what_a_hand_comes_to_has_run_before() {
     let printing = [&words[..], &["--print-frames"]].concat();
     let mut view = View::open_in(&screen, &folder, &printing, true, &environment);
     view.wait_for(&render(&folder, &words));
-    // The last is from afar.
-    let hidden = |view: &View<'_>| view.printed().lines().filter(|line| line.starts_with("ahead ")).count();
-    let mut seen = (0, Instant::now());
-    view.wait("pictures that nobody sees are drawn", |view| {
-        let count = hidden(view);
-        if count != seen.0 {
-            seen = (count, Instant::now());
-        }
-        count > 5 && seen.1.elapsed() > Duration::from_secs(8)
-    });
+    wait_for_hidden(&mut view, 6);
     let printed = view.printed().len();
     screen.drive(&["mousemove", "320", "240"]);
     for _ in 0..16 {
