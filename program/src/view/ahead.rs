@@ -112,7 +112,7 @@ impl Ahead {
         let next = job.kinds(job.next.iter());
         if self.known.wait(&next, job.is_hidden) {
             // A thread that is gone answers nothing any more.
-            return self.thread.as_ref().is_none_or(JoinHandle::is_finished);
+            return self.is_finished();
         }
         if !(is_new || self.known.are_left(&next)) || self.known.are_drawn(&next) {
             return true;
@@ -139,6 +139,11 @@ impl Ahead {
     pub fn stop(&mut self) {
         self.is_closing.store(true, Ordering::Release);
         self.jobs = None;
+    }
+
+    /// Whether nothing is under way any more, and nothing will be.
+    pub fn is_finished(&self) -> bool {
+        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
 }
 

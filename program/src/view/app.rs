@@ -1,6 +1,9 @@
 //! The application, as the event loop knows it: opens the window once it may, and hands events on.
 
-use std::{sync::Arc, time::Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use surfel::{
     Error, ErrorKind, Result,
@@ -17,12 +20,16 @@ use winit::{
 
 use super::{
     ViewArguments,
+    ahead::Ahead,
     loading::{Loader, Wants},
     path::Path,
     told::News,
     viewer::Viewer,
 };
 use crate::camera::CameraChoice;
+
+/// How soon a window that is closed looks whether all is done.
+const LOOK: Duration = Duration::from_millis(10);
 
 /// The application.
 pub struct App<'a> {
@@ -33,6 +40,8 @@ pub struct App<'a> {
     camera: Option<CameraChoice>,
     path: Path,
     viewer: Option<Viewer>,
+    /// It ends once this has, of a window that is closed.
+    ending: Option<Ahead>,
     messages: Option<Arc<Messages>>,
     failure: Option<Error>,
     #[cfg(feature = "live-shaders")]
@@ -63,6 +72,7 @@ impl<'a> App<'a> {
             camera,
             path,
             viewer: None,
+            ending: None,
             messages: None,
             failure: None,
             #[cfg(feature = "live-shaders")]
@@ -73,12 +83,13 @@ impl<'a> App<'a> {
     /// Closes the window and destroys all of Vulkan.
     pub fn end(mut self) -> Ended {
         self.close();
+        self.ending = None;
         Ended { messages: self.messages, failure: self.failure }
     }
 
     fn close(&mut self) {
         if let Some(viewer) = self.viewer.take() {
-            viewer.close();
+            self.ending = viewer.close();
         }
     }
 
@@ -109,13 +120,24 @@ impl<'a> App<'a> {
         Ok(Viewer::new(window, gpu, loader, self.settings.clone(), path, self.arguments))
     }
 
-    /// Ends the program. The window is gone at once, before all that the device does is waited for; it hears nothing any more.
+    /// Ends the program. The window is gone at once, before all that the device does is waited for. Where a window can't be hidden, as under Wayland, it is gone once it is closed and events
+    /// are looked at again, so that is done while another device compiles on.
     fn exit(&mut self, events: &ActiveEventLoop) {
         if let Some(viewer) = &mut self.viewer {
-            viewer.ends = true;
             viewer.window.set_visible(false);
         }
-        events.exit();
+        self.close();
+        self.leave(events);
+    }
+
+    /// Ends what hears events, unless something is waited for.
+    fn leave(&mut self, events: &ActiveEventLoop) {
+        match &self.ending {
+            Some(ending) if !ending.is_finished() => {
+                events.set_control_flow(ControlFlow::WaitUntil(Instant::now() + LOOK));
+            }
+            _ => events.exit(),
+        }
     }
 
     /// Ends it for a reason.
@@ -125,7 +147,7 @@ impl<'a> App<'a> {
     }
 
     fn hand_on(&mut self, events: &ActiveEventLoop, event: impl FnOnce(&mut Viewer) -> Result<()>) {
-        let Some(viewer) = self.viewer.as_mut().filter(|viewer| !viewer.ends) else { return };
+        let Some(viewer) = &mut self.viewer else { return };
         let done = event(viewer);
         match done.or_else(|error| viewer.recover(error)) {
             Ok(()) if viewer.ends => self.exit(events),
@@ -159,7 +181,9 @@ impl ApplicationHandler<News> for App<'_> {
     }
 
     fn about_to_wait(&mut self, events: &ActiveEventLoop) {
-        let Some(viewer) = &mut self.viewer else { return };
+        let Some(viewer) = &mut self.viewer else {
+            return self.leave(events);
+        };
         let flow = match viewer.next_wake(Instant::now()) {
             Some(when) => ControlFlow::WaitUntil(when),
             None => ControlFlow::Wait,

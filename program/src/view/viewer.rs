@@ -234,8 +234,8 @@ impl Viewer {
         self.window.request_redraw();
     }
 
-    /// Closes the window; keeps what was compiled.
-    pub fn close(mut self) {
+    /// Closes the window; keeps what was compiled. What another device compiles is under way still.
+    pub fn close(mut self) -> Option<Ahead> {
         if let Some(ahead) = &mut self.ahead {
             ahead.stop();
         }
@@ -245,8 +245,7 @@ impl Viewer {
         drop((prepared, coming, warm));
         // A lost cache costs the next run some time, that is all.
         let _ = gpu.headless.renderer.shaders().save_cache();
-        // Where a window can't be hidden, as under Wayland, it is gone with this. What the other device compiles is waited for behind it.
         drop((gpu, window));
-        drop(ahead);
+        ahead
     }
 }
