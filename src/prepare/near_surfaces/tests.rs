@@ -68,7 +68,7 @@ fn surfaces_with_sharp_edges_have_the_epsilon_of_what_their_planes_meet() {
     assert_eq!(shares(&behind, 1.0), None, "as a surface with noise");
     let flat = Sharp::of(&sharp(behind), 1.0);
     assert!(flat.shares[1..].iter().all(|share| (*share - 0.05).abs() < 1e-6), "{:?}", &flat.shares[..9]);
-    assert!(flat.turns.iter().all(|turn| *turn == 0.0), "{:?}", &flat.turns[..9]);
+    assert!(turns(&flat).iter().all(|turn| *turn == 0.0), "{:?}", &flat.bends[..9]);
     let mut bent = plate(0.0, 0.0, true);
     bent.keep(&[vec![true; 900], vec![false; 900]].concat());
     if let Shapes::Disks { normals, .. } = &mut bent.shapes {
@@ -79,7 +79,8 @@ fn surfaces_with_sharp_edges_have_the_epsilon_of_what_their_planes_meet() {
     }
     // 1.5 radii away of a cylinder of 10.
     let hollow = turned(bent.clone());
-    let Sharp { shares: bent, turns } = Sharp::of(&sharp(bent), 1.0);
+    let around = Sharp::of(&sharp(bent), 1.0);
+    let (turns, bent) = (turns(&around), around.shares);
     let of_few = bent[1..].iter().filter(|share| !(0.05..0.226).contains(*share)).count();
     assert!(
         of_few == 0 && bent.iter().filter(|share| **share > 0.06).count() > 800,
@@ -89,8 +90,52 @@ fn surfaces_with_sharp_edges_have_the_epsilon_of_what_their_planes_meet() {
     // A splat's radius is a tenth of the cylinder's: a chord's sine over its length.
     let unlike = turns[1..].iter().filter(|turn| !(0.05..0.101).contains(*turn)).count();
     assert!(unlike == 0, "{unlike} of {:?}", &turns[..9]);
-    let from_inside = Sharp::of(&sharp(hollow), 1.0).turns;
+    let from_inside = self::turns(&Sharp::of(&sharp(hollow), 1.0));
     assert!(from_inside.iter().all(|turn| *turn == 0.0), "{:?}", &from_inside[..9]);
+}
+
+fn turns(sharp: &Sharp) -> Vec<f32> {
+    sharp.bends.iter().map(|bend| f32::from_bits(bend & !0xffff)).collect()
+}
+
+/// Slivers side by side are a strip eleven of them wide; what lies beyond a step is none of it. They turn away across themselves, where they are narrow.
+#[test]
+fn slivers_know_how_wide_their_surface_is_and_turn_as_far_as_they_reach() {
+    let strip = |bend: f64| {
+        let angles = (0..11).map(|i| bend * 0.2 * f64::from(i));
+        let at = |angle: f64| match bend == 0.0 {
+            true => DVec3::ZERO,
+            false => DVec3::new(angle.sin(), 0.0, angle.cos() - 1.0) / bend,
+        };
+        let flat = |i: usize| if bend == 0.0 { DVec3::new(0.2 * i as f64, 0.0, 0.0) } else { DVec3::ZERO };
+        let mut positions: Vec<_> =
+            angles.clone().enumerate().map(|(i, angle)| at(angle) + flat(i)).collect();
+        let t = angles.map(|angle| 0.1 * Vec3::new(angle.cos() as f32, 0.0, -angle.sin() as f32));
+        let mut t: Vec<Vec3> = t.map(|t| -t).collect();
+        positions.push(DVec3::new(-0.2, 0.0, -0.3));
+        t.push(-0.1 * Vec3::X);
+        let shapes = Shapes::Ellipses { s: vec![2.0 * Vec3::Y; 12], t };
+        let clips = Clips::of(vec![Clip::One(ClipCurve::line(0.0, 1.0)); 12]);
+        Splats { clips, ..Splats::new(positions, shapes, Colors::unknown()) }
+    };
+    let flat = Sharp::of(&strip(0.0), 1.0);
+    let eighths: Vec<u32> = flat.bends.iter().map(|bend| bend & 0xff).collect();
+    assert_eq!([0, 5, 10, 11].map(|i| eighths[i]), [168, 88, 168, 8]);
+    // Of a cylinder of radius 4, of which they reach over a fortieth.
+    let bent = turns(&Sharp::of(&strip(0.25), 1.0));
+    assert!(bent[..11].iter().all(|turn| (0.02..0.0251).contains(turn)), "{bent:?}");
+    // Across themselves, so that it is the minor axis that reaches there.
+    let reaches = |sharp: &Sharp| sharp.bends[..11].iter().map(|bend| bend >> 8 & 0xff).collect::<Vec<u32>>();
+    assert_eq!(reaches(&Sharp::of(&strip(0.25), 1.0)), [255; 11]);
+    // Turned by a quarter, they lie along what bends: of how far they reach the minor axis is a twentieth.
+    let mut along = strip(0.25);
+    if let Shapes::Ellipses { s, t } = &mut along.shapes {
+        for (s, t) in s.iter_mut().zip(t.iter_mut()) {
+            (*s, *t) = (20.0 * *t, -0.05 * *s); // so that the normal stays
+        }
+    }
+    let reached = reaches(&Sharp::of(&along, 1.0));
+    assert!(reached.iter().all(|part| *part == 13), "{reached:?}");
 }
 
 /// With normals the other way.
