@@ -110,7 +110,7 @@ void main()
         sum(unhidden(range), false);
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             if (COVERS) {
-                imageStore(color_sums, place_of_covering(row), vec4(fall[row], gap[row], covering_sum(row)));
+                imageStore(color_sums, place_of_covering(row), vec4(fall[row], 1.0 - own_of(gap[row], outlined[row]), covering_sum(row)));
             }
             if (HALF_FLOATS) {
                 fit_half_floats(row);

@@ -56,26 +56,42 @@ bool find_splat(out uint index, out uint place)
     return index < frame.splat_count;
 }
 
-// What weights of a sharp surface are multiplied by, so that its sums are whole inside (inc/edges.glsl).
-//
-// Not where it ends by turning away: its outline is within c of the splat's radius and of the filter's where it faces the eye by the cosine f with f^2 / (2 tau) = c f + c h, with tau
-// by how much it turns over a radius (src/prepare/near_surfaces/sharp.rs) and h the filter's radius, in radii; what is flat or hollow has no such outline. And not where it is narrower than the
-// filter, as a side is that is seen edge-on: there its sum says how wide it is. What faces the eye has neither, whatever it does.
-//
-// `uv`: how u and v change along a pixel.
-float sum_of_sharp(uint index, Mapping m, vec4 uv)
+const uint BEND_OF_DISK = 0x3f80ff08u; // all are 1: disks have no room to tell it
+
+// Over the filter's radius, the minor half axis of the image of the surface around a splat: its ellipse, so many times as wide.
+float surface_minor(Splat splat, float width)
 {
-    uint first = SHAPE_VECTORS * index;
-    float turn = ELLIPSES ? shapes[first + 2].w : 1.0;
+    vec3 ray = ray_through(splat.p);
+    vec2 c = ray.xy / ray.z;
+    vec3 s = dot(splat.s, splat.s) >= dot(splat.t, splat.t) ? splat.s : splat.t;
+    float wide = width * splat.area * length(splat.n); // times s
+    vec3 t = wide / dot(s, s) * cross(splat.normal, s);
+    float per_h = 1.0 / (ray.z * frame.filter_radius);
+    vec2 a = per_h * (s.xy - c * s.z);
+    vec2 b = per_h * (t.xy - c * t.z);
+    float sum = dot(a, a) + dot(b, b);
+    float det = wide * per_h * per_h * normal_dot_ray(splat) / (length(splat.n) * ray.z);
+    return abs(det) * inversesqrt(max(0.5 * (sum + sqrt(max(sum * sum - 4.0 * det * det, 0.0))), 1e-30));
+}
+
+// How surely a sharp surface goes on around a splat, from 0 to 1: there its sums are made whole (inc/edges.glsl), and it covers what unfiltered ellipses do (inc/outlined.glsl).
+//
+// Not where it ends by turning away: its outline is within c of the splat's reach and of the filter's where it faces the eye by the cosine f with f^2 / (2 tau) = c f + c h, with tau
+// by how much it turns over what the splat reaches toward there (src/prepare/near_surfaces/sharp.rs) and h the filter's radius, in minor axes; what is flat or hollow has no such outline. And not where it is narrower than the
+// filter, as a side is that is seen edge-on: there its sum says how wide it is. What faces the eye has neither, whatever it does.
+float how_surely_goes_on(uint index, Mapping m)
+{
+    Splat splat = load_splat(index);
+    uint bend = ELLIPSES ? floatBitsToUint(shapes[SHAPE_VECTORS * index + 2].w) : BEND_OF_DISK;
+    float turn = uintBitsToFloat(bend & ~0xffffu);
     vec3 ray = ray_through(m.p);
     float facing = abs(dot(m.normal, ray)) / length(ray);
-    float filter_radii = frame.filter_radius * ray.z / (frame.view_from_local_scale * shapes[first].w * m.unit);
+    float filter_radii = float(bend >> 8 & 0xff) / 255.0 * frame.filter_radius * ray.z * splat.radius / (splat.area * length(splat.n));
     float part = SHARP_REACH * turn;
     float outline = part + sqrt(part * (part + 2.0 * filter_radii));
-    float h_px = frame.filter_radius * frame.focal_px;
-    float minor = sqrt(max(1.0 / (inverse_minor2(uv) * h_px * h_px) - 1.0, 0.0)); // unfiltered, over the filter's
+    float minor = surface_minor(splat, 0.125 * float(bend & 0xff));
     float goes_on = smooth_step(facing / max(outline, 1e-6) - 1.0) * smooth_step((minor - SHARP_MINOR) / (1.0 - SHARP_MINOR));
-    return FORMULA(FORMULA_SHARP_SUM, mix(1.0, SHARP_SUM, max(smooth_step(facing / SHARP_FACING - 1.0), goes_on)));
+    return max(smooth_step(facing / SHARP_FACING - 1.0), goes_on);
 }
 
 // What planes do to it, as cut_in_box tells.
@@ -155,7 +171,8 @@ void main()
     float uv_scale = map.affine ? 1.0 : 1.0 / w0;
     float share = share_of(m) * own_weight(index);
     vec4 uv = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
-    share *= SHARP ? sum_of_sharp(index, m, uv) : 1.0;
+    float goes_on = SHARP ? how_surely_goes_on(index, m) : 0.0;
+    share *= SHARP ? FORMULA(FORMULA_SHARP_SUM, mix(1.0, SHARP_SUM, goes_on)) : 1.0;
     float blended = BLENDED ? weight_of_level(index) : 1.0;
     share *= blended;
     if (BLENDED) {
@@ -178,6 +195,10 @@ void main()
     }
     if (BLENDED) {
         color.y = packUnorm2x16(vec2(unpackUnorm2x16(color.y).x, 2.0 * blended));
+    }
+    if (SHARP && !BLENDED && !IN_LAYERS) {
+        // What is opaque has no alpha: how surely the surface ends stands in its place (inc/outlined.glsl).
+        color.y = packUnorm2x16(vec2(unpackUnorm2x16(color.y).x, 1.0 - goes_on));
     }
     float signed_shift = TWO_SIDED && m.faces_away ? -m.shift : m.shift;
     records0[place] = vec4(map.x0_px, CLIPS || cut_by_planes ? -w0 : w0, signed_shift);

@@ -262,7 +262,7 @@
 #define LEAST_SHIFT 1.0e-6            // Of its depth: a splat is shifted by as much at least, where it is shifted at all.
 #define MOST_EDGE_SURFACES 3        // Opaque surfaces behind each other that a pixel shows at their edges, at most.
 #define EDGE_LENGTHENING 16.0       // Of a slanted splat's epsilon where edges are covered in part (`inc/mapping.glsl`).
-#define SHARP_SUM 1.7               // Of a sharp surface, whose sums vary: what weights over the overlap are multiplied by (`inc/edges.glsl`).
+#define SHARP_SUM 1.35              // Of a sharp surface, whose sums vary: what weights over the overlap are multiplied by (`inc/edges.glsl`).
 #define SHARP_FACING 0.3            // All of it from twice this cosine between the normal and the ray on, from this one on more and more,
 #define SHARP_REACH 0.5             // or where no outline is within so much of the splat's radius and the filter's (`tile_project.comp.glsl`),
 #define SHARP_MINOR 0.3             // and the image is wider than so much of the filter's radius; all of it from the filter's radius on.

@@ -30,7 +30,8 @@
 //
 // Sharp surfaces are made of ellipses through the corners of triangles, slivers among them: at the corners of a flat side, and at its ridges, where
 // nothing lies beyond, A is a half of its mean, and less. There the curves tell what is covered (inc/clip_image.glsl), so that A may be too much: it is
-// SHARP_SUM times as much, but where the surface ends by turning away or is seen edge-on (tile_project.comp.glsl).
+// SHARP_SUM times as much, but where the surface ends by turning away or is seen edge-on (tile_project.comp.glsl); and there what unfiltered ellipses cover is covered
+// (inc/outlined.glsl).
 //
 // Limits: surfaces of which several lie within a few epsilon; A of a thin line of splats is too small, and along its middle, where it does not fall, may count as whole.
 

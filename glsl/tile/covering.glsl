@@ -1,9 +1,13 @@
 // What part of a pixel the splats of a surface cover (inc/edges.glsl), while they are added; COVERAGE_EDGES.
 //
-// CUTS: a plane that cuts what is seen is as a curve of all splats. Up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part. A ridge has a
+// CUTS: a plane that cuts what is seen is as a curve of all splats. Up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part: the mean
+// over the splats that are cut, by their weights, since a line that goes on beyond its splat leaves too much around a bend. A ridge has a
 // curve on both of its sides, which cut off opposite ones, and what they leave adds up. What no curve cuts there is left, too.
 
 #include "inc/edges.glsl"
+#include "inc/outlined.glsl"
+
+const bool OUTLINED = COVERAGE_EDGES && CURVED && !BLENDED && !OF_LAYERS; // their alphas tell how surely surfaces go on
 
 // In tiles with so many splats that nobody looks for further surfaces behind the first, all surfaces cover. One alone has too little there: what lies around a
 // pixel's middle is many epsilons deep. Of what has two sides both count.
@@ -12,13 +16,18 @@ bool all_cover = false;
 float summed[ROWS];       // the sum of weights over the overlap; where that of colors is the same (has_own_sum), nothing
 vec2 fall[ROWS];          // by how much the sum falls a pixel along x and y (edge_opacity)
 float gap[ROWS];          // what disks by themselves leave uncovered
+float outlined[ROWS];     // OUTLINED: what ellipses cover that no filter has widened
 vec2 uncut[ROWS];         // CUTS: the same sum and gap of splats that no curve cuts in the pixel
-vec4 kept_toward[ROWS];   // CUTS: of others the largest part that curves leave, by the direction in which they keep
+vec4 cut_toward[ROWS];    // CUTS: the sum of others, by the direction in which curves keep,
+vec4 kept_toward[ROWS];   // and of what these leave of them
 
 bool has_own_sum()
 {
     return CUTS || !WEIGHTED || all_cover;
 }
+
+// What is cut off by less than one in so many counts as cut and as not cut in part, so that nothing changes by a step.
+const float CUT_BELOW = 32.0;
 
 void begin_covering(int row)
 {
@@ -26,13 +35,18 @@ void begin_covering(int row)
     fall[row] = vec2(0.0);
     gap[row] = 1.0;
     uncut[row] = vec2(0.0, 1.0);
+    outlined[row] = 0.0;
+    cut_toward[row] = vec4(0.0);
     kept_toward[row] = vec4(0.0);
 }
 
-// `weight`: over the overlap, as if nothing were cut off. `falls`: by how much it falls a pixel. `part`: what the splat covers by itself. `kept`: what curves leave (tile/clip.glsl).
-void cover(float weight, vec2 falls, float part, float kept, int row)
+// `weight`: over the overlap, as if nothing were cut off. `falls`: by how much it falls a pixel. `part`: what the splat covers by itself. `own_ellipse`: and as no filter has widened it. `kept`: what curves leave (tile/clip.glsl).
+void cover(float weight, vec2 falls, float part, float own_ellipse, float kept, int row)
 {
     float left = 1.0 - clamp(part, 0.0, 1.0);
+    if (OUTLINED) {
+        outlined[row] += own_ellipse;
+    }
     gap[row] *= left;
     fall[row] += falls;
     if (has_own_sum()) {
@@ -40,19 +54,25 @@ void cover(float weight, vec2 falls, float part, float kept, int row)
     }
     if (CUTS) {
         float part_kept = part_of(kept);
-        bool cut = part_kept < 1.0;
-        uncut[row] = cut ? uncut[row] : vec2(uncut[row].x + weight, uncut[row].y * left);
-        float most = cut ? part_kept : 0.0;
-        kept_toward[row] = max(kept_toward[row], mix(vec4(0.0), vec4(most), equal(vec4(toward_of(kept)), vec4(0.0, 1.0, 2.0, 3.0))));
+        float whole = clamp(CUT_BELOW * part_kept - (CUT_BELOW - 1.0), 0.0, 1.0);
+        uncut[row] = vec2(uncut[row].x + whole * weight, uncut[row].y * mix(1.0, left, whole));
+        vec4 toward = mix(vec4(0.0), vec4(weight - whole * weight), equal(vec4(toward_of(kept)), vec4(0.0, 1.0, 2.0, 3.0)));
+        cut_toward[row] += toward;
+        kept_toward[row] += part_kept * toward;
     }
+}
+
+// What splats cover by themselves, of what they leave uncovered and the sum of what their own ellipses cover.
+float own_of(float gap, float outlined)
+{
+    return OUTLINED ? max(1.0 - gap, min(outlined, 1.0)) : 1.0 - gap;
 }
 
 // Of what the surface would cover, what curves leave. Opposite directions are both sides of a ridge, and neighbors may be one side whose curves
 // differ a little: those of two of four that are not opposite count once, by whichever pairs leave less.
 float kept_part(int row)
 {
-    vec4 toward = kept_toward[row];
-    vec4 pairs = max(toward, toward.yzwx);
+    vec4 pairs = (kept_toward[row] + kept_toward[row].yzwx) / max(cut_toward[row] + cut_toward[row].yzwx, 1e-20);
     float kept = min(pairs.x + pairs.z, pairs.y + pairs.w);
     return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y, NOT_FLAT)), 1.0) : 1.0;
 }
@@ -68,5 +88,5 @@ float opacity_of(int row)
 {
     float sum = has_own_sum() ? summed[row] : colors[row].w;
     float steepness = steepness_of(sum, length(fall[row]));
-    return kept_part(row) * edge_opacity(sum, 1.0 - gap[row], OF_LAYERS ? max(steepness, NOT_FLAT) : steepness);
+    return kept_part(row) * edge_opacity(sum, own_of(gap[row], outlined[row]), OF_LAYERS ? max(steepness, NOT_FLAT) : steepness);
 }

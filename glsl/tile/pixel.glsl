@@ -190,7 +190,8 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
         vec2 change = splat.uv.xy * uvw.x + splat.uv.zw * uvw.y;
         covering = all_cover ? covering : inside;
         float covers = covering ? shared_weight : 0.0;
-        cover(covers, covers * kernel_decline(r2) * inverse_w2 * change, covering ? part : 0.0, covering ? kept : 1.0, row);
+        float own_ellipse = OUTLINED ? part_of_outline(attributes.outline, splat.uv, AFFINE ? vec3(uvw.xy, 1.0) : uvw) : 0.0;
+        cover(covers, covers * kernel_decline(r2) * inverse_w2 * change, covering ? part : 0.0, covering ? own_ellipse : 0.0, covering ? kept : 1.0, row);
     }
     bool beyond = CREASES && is_beyond(kept);
     if (CREASES) {

@@ -38,6 +38,7 @@ SplatAttributes load_attributes(Splat splat)
     attributes.normal = vec3(r2.w, uintBitsToFloat(r3.xy));
     attributes.share = r2.z;
     attributes.own_part = COVERAGE_EDGES ? own_coverage(splat.uv) : vec2(0.0);
+    attributes.outline = OUTLINED ? outline_of(splat.uv, 1.0 - blue_alpha.y) : vec4(0.0);
     if (BLENDED) {
         attributes.own_part *= attributes.alpha; // of what is opaque (tile_project.comp.glsl)
     }

@@ -196,7 +196,7 @@ impl Cut<'_, '_> {
         };
         let is_sharp = !splats.clips.is_empty();
         let radii = Epsilon::auto_radii(transparent);
-        let Sharp { shares, turns } = match is_sharp {
+        let Sharp { shares, bends } = match is_sharp {
             true => Sharp::of(splats, radii),
             false => Sharp::default(),
         };
@@ -208,7 +208,7 @@ impl Cut<'_, '_> {
         // Before it is cut, so that chunks are compact; and after what needs room of its own.
         let sequence = Sequence::of(splats, order);
         let part =
-            Part { number, object, numbers, transparent, inverse_overlaps, epsilon, shares, turns, levels };
+            Part { number, object, numbers, transparent, inverse_overlaps, epsilon, shares, bends, levels };
         if splats.clips.is_empty() {
             return self.sequence(&part, &sequence);
         }

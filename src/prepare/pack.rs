@@ -1,7 +1,7 @@
 //! The layout of splats in GPU buffers.
 //!
 //! Disks, 32 bytes: `position radius`, `normal two`. Ellipses, 48 bytes: `position major-radius`, `s two`, `t weight`, the weight that of a node (`levels.rs`); of a
-//! surface with sharp edges, `t turn` (`near_surfaces/sharp.rs`). Local space, f32; `two` is 1 less the splat's share of ε (`near_surfaces.rs`) as a 16-bit fraction (error 8e-6), and in the upper half one over its overlap
+//! surface with sharp edges, `t bend` (`near_surfaces/sharp.rs`). Local space, f32; `two` is 1 less the splat's share of ε (`near_surfaces.rs`) as a 16-bit fraction (error 8e-6), and in the upper half one over its overlap
 //! (`geometry/overlaps.rs`), in steps of 2⁻¹⁴ (error 3e-5). Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
 //! unless one is for all, are those of `packed.rs`: 16 and 4 bytes.
 
@@ -102,8 +102,8 @@ pub struct Packed {
 pub(super) struct Beside<'a> {
     /// Their shares of ε.
     pub shares: Option<&'a [f32]>,
-    /// By how much a surface with sharp edges turns away near each; of others none.
-    pub turns: &'a [f32],
+    /// How a surface with sharp edges turns away near each, and how wide it is; of others none.
+    pub bends: &'a [u32],
     /// One over their overlaps.
     pub inverse_overlaps: Option<&'a [f32]>,
     /// Their levels of detail.
@@ -229,10 +229,9 @@ pub(super) fn pack_behind(
                     if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v }
                 };
                 // Nodes are not cut.
-                let turn = beside.turns.get(i).map(|turn| f64::from(*turn));
                 let weight = || beside.levels.map_or(0.0, |(leveled, levels)| leveled.weight(levels, i));
-                let last = turn.unwrap_or_else(weight);
-                packed.shapes.extend([bits(position, radius), with(local(s), two), bits(local(t), last)]);
+                let last = beside.bends.get(i).copied().unwrap_or_else(|| (weight() as f32).to_bits());
+                packed.shapes.extend([bits(position, radius), with(local(s), two), with(local(t), last)]);
             }
         }
         if survey.fine {

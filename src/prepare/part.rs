@@ -19,8 +19,8 @@ pub(super) struct Part<'a> {
     pub epsilon: Option<Epsilon>,
     /// Of the object's splats, where they have any.
     pub shares: Option<Vec<f32>>,
-    /// By how much a surface with sharp edges turns away near each; of others none.
-    pub turns: Vec<f32>,
+    /// How a surface with sharp edges turns away near each, and how wide it is; of others none.
+    pub bends: Vec<u32>,
     pub levels: Option<(&'a Leveled, ChunkLevels)>,
 }
 
@@ -49,7 +49,7 @@ impl Part<'_> {
     pub fn beside(&self) -> Beside<'_> {
         Beside {
             shares: self.shares.as_deref(),
-            turns: &self.turns,
+            bends: &self.bends,
             inverse_overlaps: Some(&self.inverse_overlaps),
             levels: self.levels,
         }

@@ -194,6 +194,7 @@ fn translucent(
         weight: fragment.weight,
         kernel: weight(kernel, r2),
         fall: decline(kernel, r2) * splat.change_of_r2(ray, &frame.view),
+        outlined: splat.outlined(ray, &frame.view),
         r2,
         kept: splat.kept(ray, fragment.z, &frame.view),
         source: Source::Splat(splat_index),

@@ -49,6 +49,8 @@ pub(super) struct Covering {
     pub minor_px: f64,
     /// The filter's radius in pixels.
     pub h_px: f64,
+    /// How surely the surface goes on around it, of a sharp one: there what unfiltered ellipses cover tells what is covered.
+    pub goes_on: f64,
     /// [`left_out`] of all that is drawn with it.
     pub left_out: f64,
     /// It is seen in layers: what is missing of one may be in the next.
@@ -74,6 +76,8 @@ struct Part<'a> {
     covering: &'a Covering,
     kernel: f64,
     fall: DVec2,
+    /// What its own ellipse covers, as no filter has widened it.
+    outlined: f64,
     r2: f64,
     kept: Option<Kept>,
 }
@@ -106,36 +110,50 @@ fn whole(sum: f64, steepness: f64, alone: f64, covering: &Covering) -> f64 {
     ((inside + ends * (at_end - inside)).max(alone) / NEARLY_WHOLE).min(1.0)
 }
 
-/// The part of a pixel that splats of one surface cover together. What they cover by themselves is taken for independent.
+/// The part of a pixel that splats of one surface cover together. What they cover by themselves is taken for independent, and what their own ellipses do sums to a whole where a sharp
+/// surface goes on.
 ///
-/// Up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part; those of both sides
-/// of a ridge leave parts that add up. What no curve cuts in the pixel is left, too.
+/// Up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part: the mean over the splats that are cut toward there, by their
+/// weights. Those of both sides of a ridge leave parts that add up. What no curve cuts in the pixel is left, too.
 fn opacity(parts: &[Part]) -> f64 {
     let Some(Part { covering, .. }) = parts.first() else { return 0.0 };
-    let sum = |which: &dyn Fn(&Part) -> bool| -> f64 {
-        parts.iter().filter(|part| which(part)).map(|part| part.covering.share * part.kernel).sum()
+    let weight = |part: &Part| part.covering.share * part.kernel;
+    let alone = |count: &dyn Fn(&Part) -> f64| -> f64 {
+        let gaps = parts.iter().map(|part| 1.0 - count(part) * part.covering.alone(part.r2).clamp(0.0, 1.0));
+        1.0 - gaps.product::<f64>()
     };
-    let alone = |which: &dyn Fn(&Part) -> bool| -> f64 {
-        let gaps = parts.iter().filter(|part| which(part)).map(|part| part.covering.alone(part.r2));
-        1.0 - gaps.map(|alone| 1.0 - alone.clamp(0.0, 1.0)).product::<f64>()
-    };
+    let outlined = parts.iter().map(|part| part.outlined).sum::<f64>().min(1.0);
+    let all: f64 = parts.iter().map(weight).sum();
     let fall: DVec2 = parts.iter().map(|part| part.covering.share * part.fall).sum();
-    let cut = |part: &Part| part.kept.filter(|kept| kept.part < 1.0);
+    kept(parts, &alone)
+        * whole(all, steepness(all, fall.length(), covering), alone(&|_| 1.0).max(outlined), covering)
+}
+
+/// What curves leave of it.
+fn kept(parts: &[Part], alone: &dyn Fn(&dyn Fn(&Part) -> f64) -> f64) -> f64 {
+    let weight = |part: &Part| part.covering.share * part.kernel;
+    // What is cut off by less than a 32nd counts as cut and as not cut in part.
+    let uncut = |part: &Part| part.kept.map_or(1.0, |kept| (32.0 * kept.part - 31.0).clamp(0.0, 1.0));
     let toward = [0, 1, 2, 3].map(|quarter| {
-        let toward = parts.iter().filter_map(cut).filter(|kept| kept.toward == quarter);
-        toward.map(|kept| kept.part).fold(0.0, f64::max)
+        let cut =
+            parts.iter().filter_map(|part| Some((part, part.kept.filter(|kept| kept.toward == quarter)?)));
+        cut.fold(DVec2::ZERO, |sums, (part, kept)| {
+            sums + weight(part) * (1.0 - uncut(part)) * DVec2::new(kept.part, 1.0)
+        })
     });
     // Both sides of a ridge keep in opposite directions. Splats of one side may fall into two quarters that are neighbors.
-    let pair = |i: usize| f64::max(toward[i], toward[(i + 1) % 4]);
-    let kept = match f64::min(pair(0) + pair(2), pair(1) + pair(3)) {
+    let pair = |i: usize| match toward[i] + toward[(i + 1) % 4] {
+        sums if sums.y > 0.0 => sums.x / sums.y,
+        _ => 0.0,
+    };
+    let Some(Part { covering, .. }) = parts.first() else { return 1.0 };
+    match f64::min(pair(0) + pair(2), pair(1) + pair(3)) {
         0.0 => 1.0,
         kept => {
-            let uncut = |part: &Part| cut(part).is_none();
-            kept.max(whole(sum(&uncut), NOT_FLAT, alone(&uncut), covering)).min(1.0)
+            let sum = parts.iter().map(|part| uncut(part) * weight(part)).sum();
+            kept.max(whole(sum, NOT_FLAT, alone(&uncut), covering)).min(1.0)
         }
-    };
-    let all = sum(&|_| true);
-    kept * whole(all, steepness(all, fall.length(), covering), alone(&|_| true), covering)
+    }
 }
 
 /// [`opacity`] of fragments of splats.
@@ -146,8 +164,8 @@ pub(super) fn covered<'a>(
     let parts: Vec<_> = fragments
         .iter()
         .filter_map(|fragment| {
-            let Translucent { kernel, fall, r2, kept, .. } = **fragment;
-            Some(Part { covering: splat_of(fragment).covering.as_ref()?, kernel, fall, r2, kept })
+            let Translucent { kernel, fall, outlined, r2, kept, .. } = **fragment;
+            Some(Part { covering: splat_of(fragment).covering.as_ref()?, kernel, fall, outlined, r2, kept })
         })
         .collect();
     opacity(&parts)

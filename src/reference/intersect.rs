@@ -85,13 +85,13 @@ impl DrawnSplat {
     }
 
     /// u and v of a point of its plane.
-    fn uv(&self, point: DVec3) -> DVec2 {
+    pub(super) fn uv(&self, point: DVec3) -> DVec2 {
         let q = point - self.center;
         DVec2::new(self.u_axis.dot(q), self.v_axis.dot(q))
     }
 
     /// The depth at which the ray meets the plane.
-    fn plane_depth(&self, ray: DVec3, near: f64) -> Option<f64> {
+    pub(super) fn plane_depth(&self, ray: DVec3, near: f64) -> Option<f64> {
         let z = self.plane_normal.dot(self.center) / self.plane_normal.dot(ray);
         // 0/0 of a plane that holds the ray is NaN and must not pass.
         (z >= near && z.is_finite()).then_some(z)

@@ -27,6 +27,8 @@ pub(super) struct Translucent {
     pub r2: f64,
     /// By how much that value falls a pixel along x and y.
     pub fall: DVec2,
+    /// What it covers as no filter has widened it.
+    pub outlined: f64,
     /// What clip curves leave of it, where it has any.
     pub kept: Option<Kept>,
     pub source: Source,

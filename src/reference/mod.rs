@@ -55,6 +55,7 @@ mod low_pass;
 mod low_pass_taps;
 mod mesh;
 mod near_surfaces;
+mod outline;
 mod overlap;
 mod paper_filter;
 mod pick;

@@ -76,30 +76,69 @@ pub(super) fn shares(splats: &Splats, radii: f64) -> Vec<f64> {
     shares
 }
 
-/// By how much a surface that curves end turns away near each splat by its radius r; 1 of disks, which have no room to tell it. The largest r sin θ / d over those whose centers are within 1.5 radii, d away, whose
-/// normals are θ, at most 60°, off, and that lie behind the plane, by d sin θ / 4 at least and by d sin θ at most.
-pub(super) fn turns(splats: &Splats) -> Vec<f64> {
+/// How a surface that curves end goes on around a splat.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bend {
+    /// By how much it turns away over what the splat reaches toward there, of 8 significant bits.
+    pub turn: f64,
+    /// The minor axis over that reach, in 255 parts; up from 0.37 of one.
+    pub minor_part: f64,
+    /// Half of how wide it is across the splat, in minor axes, in eighths, up from 0.37 of one and below 32.
+    pub width: f64,
+}
+
+/// That of each splat; of disks, which have no room to tell it, all are 1.
+///
+/// The turn is the largest of a sin θ / d over those whose centers are within 1.5 radii, d away, whose normals are θ, at most 60°, off, and that lie behind the plane, by d sin θ / 4 at
+/// least and by d sin θ at most; with a how far the splat reaches toward where that normal leans. The minor part is the largest with the minor axis for a, over that. The width is the largest of how far such splats reach across, and those off the plane by no more than d sin θ or a thousandth of a radius.
+pub(super) fn bends(splats: &Splats) -> Vec<Bend> {
+    let mut bends = vec![Bend { turn: 1.0, minor_part: 1.0, width: 1.0 }; splats.len()];
     if let Shapes::Disks { .. } = splats.shapes {
-        return vec![1.0; splats.len()];
+        return bends;
     }
-    let mut turns = vec![0.0; splats.len()];
     let drawn: Vec<usize> = (0..splats.len()).filter(|&i| splats.defect(i).is_none()).collect();
     let frame = |i: usize| {
         let (s, t) = tangents(&splats.shapes, i);
         (splats.positions[i], s.normalize().cross(t.normalize()).normalize())
     };
+    let reach = |i: usize, toward: DVec3| {
+        let (s, t) = tangents(&splats.shapes, i);
+        (s.dot(toward).powi(2) + t.dot(toward).powi(2)).sqrt()
+    };
     for &i in &drawn {
         let (center, normal) = frame(i);
+        let (s, t) = tangents(&splats.shapes, i);
         let radius = splats.major_radius(i);
+        let longest = if t.length() > s.length() { t } else { s };
+        let across = normal.cross(longest).normalize();
+        let minor = s.cross(t).length() / longest.length();
+        let (mut turn, mut of_minor, mut widest) = (0.0_f64, 0.0_f64, minor);
         for &other in drawn.iter().filter(|other| **other != i) {
             let (at, its_normal) = frame(other);
             let (to, cosine) = (at - center, its_normal.dot(normal));
-            let most = to.length() * normal.cross(its_normal).length();
+            let sine = normal.cross(its_normal).length();
+            let most = to.length() * sine;
             let behind = -to.dot(normal);
-            if cosine >= 0.5 && to.length() <= 1.5 * radius && behind > 0.25 * most && behind <= most {
-                turns[i] = f64::max(turns[i], radius * most / to.length_squared());
+            if cosine < 0.5 || to.length() > 1.5 * radius {
+                continue;
+            }
+            if behind > 0.25 * most && behind <= most {
+                turn = turn.max(reach(i, its_normal - cosine * normal) / to.length());
+                of_minor = of_minor.max(minor * sine / to.length());
+            }
+            if behind.abs() <= most.max(1e-3 * radius) {
+                widest = widest.max(to.dot(across).abs() + reach(other, across));
             }
         }
+        let (bit, minor_part) = match turn > 0.0 {
+            true => (2.0_f64.powf(turn.log2().floor() - 7.0), of_minor / turn),
+            false => (1.0, 1.0),
+        };
+        bends[i] = Bend {
+            turn: (turn / bit).round() * bit,
+            minor_part: (255.0 * minor_part + 0.63).floor().clamp(1.0, 255.0) / 255.0,
+            width: (8.0 * widest / minor + 0.63).floor().min(255.0) / 8.0,
+        };
     }
-    turns
+    bends
 }

@@ -98,21 +98,26 @@ pub(super) fn evened(splats: &Splats, overlaps: Vec<f64>) -> Vec<f64> {
 
 /// A splat of a surface that curves end, as it is seen.
 pub(super) struct SharpSplat {
-    /// By how much the surface turns away over a radius (`near_surfaces.rs`).
+    /// By how much the surface turns away over what the splat reaches toward there (`near_surfaces.rs`).
     pub turn: f64,
     /// Between normal and ray.
     pub cosine: f64,
-    /// The filter's radius at its depth, in radii.
+    /// The filter's radius at its depth, in what it reaches toward where the surface turns away.
     pub filter_radii: f64,
-    /// The minor semi-axis of its image, unfiltered, over the filter's radius.
+    /// The minor semi-axis of the image of the surface around it, over the filter's radius.
     pub minor: f64,
 }
 
 impl SharpSplat {
-    /// How many times its weights count: sums fall toward ridges and corners of triangles, where the curves tell what is covered. Not where the
+    /// How many times its weights count.
+    pub fn sum(&self) -> f64 {
+        1.0 + 0.35 * self.goes_on()
+    }
+
+    /// How surely the surface goes on around it, from 0 to 1: sums fall toward ridges and corners of triangles, where the curves tell what is covered. Not where the
     /// surface ends by turning away: on one that turns by τ a radius, an outline that is half of the splat and of the filter away has the cosine f with f² = τ (f + h).
     /// What is narrower than the filter may be a side that is seen edge-on, whose sum says how wide it is; but not where it faces the eye.
-    pub fn sum(&self) -> f64 {
+    pub fn goes_on(&self) -> f64 {
         let half = 0.5 * self.turn;
         let outline = half + (half * half + self.turn * self.filter_radii).sqrt();
         let goes_on = match outline > 0.0 {
@@ -121,7 +126,7 @@ impl SharpSplat {
         };
         let is_wide = smooth_step((self.minor - 0.3) / 0.7);
         let faces = smooth_step((self.cosine - 0.3) / 0.3);
-        1.0 + 0.7 * faces.max(goes_on * is_wide)
+        faces.max(goes_on * is_wide)
     }
 }
 

@@ -129,6 +129,7 @@ pub(super) fn collect(
                     kernel: 1.0,
                     r2: 0.0,
                     fall: DVec2::ZERO,
+                    outlined: 0.0,
                     kept: None,
                     source,
                 });

@@ -12,7 +12,7 @@ use super::ewa::Stretched;
 use super::filter::{adjust, area_share, lengthened, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
-use super::near_surfaces::turns;
+use super::near_surfaces::{Bend, bends};
 use super::overlap::{SharpSplat, evened, overlaps};
 use super::paper_filter::adjust_paper;
 use super::surface::Attributes;
@@ -113,15 +113,15 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
             false => evened(&object.splats, overlaps(&object.splats, settings.kernel)),
         });
         let is_sharp = overlaps.is_some() && !object.splats.clips.is_empty();
-        let turns = is_sharp.then(|| turns(&object.splats));
+        let bends = is_sharp.then(|| bends(&object.splats));
         let rule = EpsilonRule::of(scene, number, settings, opacity);
         let left_out = left_out(scene, opacity);
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
             if defect.is_none() && opacity != Opacity::Invisible {
-                let turn = turns.as_ref().map(|turns| turns[i]);
-                let overlap = overlaps.as_ref().map(|overlaps| (overlaps[i], turn));
+                let bend = bends.as_ref().map(|bends| bends[i]);
+                let overlap = overlaps.as_ref().map(|overlaps| (overlaps[i], bend));
                 let splat = prepare_one(
                     object,
                     i,
@@ -151,7 +151,7 @@ pub(super) fn culls((settings, is_cut_open): (&Settings, bool), closed: bool, op
 fn prepare_one(
     object: &Object,
     i: usize,
-    (cull, opacity, overlap, left_out): (bool, Opacity, Option<(f64, Option<f64>)>, f64),
+    (cull, opacity, overlap, left_out): (bool, Opacity, Option<(f64, Option<Bend>)>, f64),
     (rule, polygon_reach): (&EpsilonRule, f64),
     view: &View,
     settings: &Settings,
@@ -221,11 +221,15 @@ fn prepare_one(
     };
     let image_size = map.size([projected(center, s), projected(center, t)]);
     let cosine = outward.dot(center.normalize()).abs();
-    let overlap = overlap.map(|(overlap, turn)| {
-        let filter_radii = h * center.z / splats.major_radius(i);
-        let minor = ((minor / h).powi(2) - 1.0).max(0.0).sqrt();
-        overlap / turn.map_or(1.0, |turn| SharpSplat { turn, cosine, filter_radii, minor }.sum())
+    let sharp = overlap.and_then(|(_, bend)| bend).map(|Bend { turn, minor_part, width }| {
+        let (s, t) = original;
+        let longer = if t.length() > s.length() { t } else { s };
+        let smaller = s.cross(t).length() / longer.length();
+        let across = outward.cross(longer.normalize()) * width * smaller;
+        let minor = minor_axis(projected(center, longer), projected(center, across)) / h;
+        SharpSplat { turn, cosine, filter_radii: minor_part * h * center.z / smaller, minor }
     });
+    let overlap = overlap.map(|(overlap, _)| overlap / sharp.as_ref().map_or(1.0, SharpSplat::sum));
     let low_pass = (in_front && settings.filter == Filter::Max).then(|| LowPass {
         center: center.truncate() / center.z,
         radius: h,
@@ -261,6 +265,7 @@ fn prepare_one(
             share: area / overlap,
             minor_px: view.focal_px * minor,
             h_px: view.focal_px * h,
+            goes_on: sharp.filter(|_| !is_layered).map_or(0.0, |sharp| sharp.goes_on()),
             left_out,
             in_layers: opacity == Opacity::Transparent,
         }),

@@ -66,6 +66,7 @@ pub enum Formula {
     Plane,
     Crease,
     SharpSum,
+    Outlined,
 }
 
 impl Formula {
@@ -87,9 +88,9 @@ impl Formula {
     /// Those of surfaces that cover pixels in part where they end.
     pub const OF_EDGES: [Self; 2] = [Self::EdgeOpacity, Self::Share];
 
-    /// Those of clip curves; the last three of them where these cover pixels in part.
-    pub const OF_CLIPS: [Self; 5] =
-        [Self::ClipLine, Self::ClipCurve, Self::ClipRamp, Self::Crease, Self::SharpSum];
+    /// Those of clip curves; the last four of them where these cover pixels in part.
+    pub const OF_CLIPS: [Self; 6] =
+        [Self::ClipLine, Self::ClipCurve, Self::ClipRamp, Self::Crease, Self::SharpSum, Self::Outlined];
 
     /// That of planes that cut what is seen.
     pub const OF_PLANES: [Self; 1] = [Self::Plane];
