@@ -40,7 +40,7 @@ void main()
     float unknown = 1.0 + 0.001 * float(gl_WorkGroupID.x);
     Splat first = Splat(0, vec2(-unknown), unknown, 0.99 * unknown, unknown * vec4(0.1, 0.01, -0.01, 0.1), unknown * vec2(0.001, 0.002));
     vec3 color = vec3(unknown, 0.5 * unknown, 0.2 * unknown);
-    SplatAttributes attributes = SplatAttributes(color, 1.0, unknown * vec3(0.6, 0.0, -0.8), 0.9 * unknown, vec2(0.0), vec4(0.0));
+    SplatAttributes attributes = SplatAttributes(color, 1.0, unknown * vec3(0.6, 0.0, -0.8), 0.9 * unknown, vec2(0.0), vec4(0.0), vec4(0.0));
 
     [[unroll]] for (int row = 0; row < ROWS; row++) {
         visible[row] = 0.0;

@@ -40,7 +40,13 @@ const bool COVERS = COVERAGE_EDGES && IN_SLOTS;
 
 ivec2 place_of_covering(int row)
 {
-    return pixel_in_slot(row) + ivec2(0, imageSize(color_sums).y / 2);
+    return pixel_in_slot(row) + ivec2(0, imageSize(color_sums).y / (REACHES ? 3 : 2));
+}
+
+// REACHES: below that, what disks at a border cover.
+ivec2 place_of_border(int row)
+{
+    return pixel_in_slot(row) + ivec2(0, imageSize(color_sums).y / 3 * 2);
 }
 
 // Where images have what a pixel of the tile has.
@@ -70,7 +76,8 @@ void load(bool goes_on)
             fall[row] = covering.xy;
             gap[row] = covering.z;
             summed[row] = covering.w;
-            uncut[row] = covering.wz;
+            border[row] = REACHES ? texelFetch(color_sums_before, place_of_border(row), 0).x : NO_BORDER;
+            uncut[row] = vec3(covering.wz, border[row]);
         }
         polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel, 0).r : 0.0;
     }
@@ -110,7 +117,10 @@ void main()
         sum(unhidden(range), false);
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             if (COVERS) {
-                imageStore(color_sums, place_of_covering(row), vec4(fall[row], 1.0 - own_of(gap[row], outlined[row]), covering_sum(row)));
+                imageStore(color_sums, place_of_covering(row), vec4(fall[row], gap_of(row), covering_sum(row)));
+                if (REACHES) {
+                    imageStore(color_sums, place_of_border(row), vec4(border[row], vec3(0.0)));
+                }
             }
             if (HALF_FLOATS) {
                 fit_half_floats(row);

@@ -175,6 +175,9 @@ void main()
     share *= SHARP ? FORMULA(FORMULA_SHARP_SUM, mix(1.0, SHARP_SUM, goes_on)) : 1.0;
     float blended = BLENDED ? weight_of_level(index) : 1.0;
     share *= blended;
+    if (REACHES && m.reaches) {
+        share = -share;
+    }
     if (BLENDED) {
         // What is to vanish has to leave no trace at the end. It hides ever less of what is behind it: its epsilon grows. Nor does it cover a
         // pixel by itself any more (inc/edges.glsl), by what stands in the place of alpha; the larger one of a node and its children still does.

@@ -43,8 +43,11 @@ void main()
     }
     float opacity = 1.0;
     if (COVERAGE_EDGES) {
-        vec4 covering = texelFetch(color_sums, in_slot + ivec2(0, textureSize(color_sums, 0).y / 2), 0); // as tile_accumulate.comp.glsl leaves it
-        opacity = edge_opacity(covering.w, 1.0 - covering.z, steepness_of(covering.w, length(covering.xy)));
+        // As tile_accumulate.comp.glsl leaves them.
+        ivec2 below = ivec2(0, textureSize(color_sums, 0).y / (REACHES ? 3 : 2));
+        vec4 covering = texelFetch(color_sums, in_slot + below, 0);
+        float border = REACHES ? texelFetch(color_sums, in_slot + 2 * below, 0).x : NO_BORDER;
+        opacity = edge_opacity(covering.w, own_of(covering.z, border), steepness_of(covering.w, length(covering.xy)));
     }
     imageStore(shown, pixel_of(0), surface.weight > 0.0 ? opacity * vec4(light, 1.0) : vec4(0.0));
 }

@@ -24,8 +24,9 @@
 // Limits: affine approximation at the center, like every EWA filter: for regular splats (mapping.glsl). A center that is
 // nearer than the splat is deep has no image of which that would be true, and in f32 no digits.
 
-const float PART_OF_AXIS = 250.0 / 251.0;
-const float PART_OF_FILTER = 609.0 / 610.0;
+#include "inc/reach.glsl"
+#include "inc/widened.glsl"
+
 const float OWN_DEPTH = 1.0 / 16.0; // in h: shorter axes lose their depth
 
 struct Widened {
@@ -36,6 +37,7 @@ struct Widened {
     vec3 n2;
     float det;
     float share; // of its weight that the splat keeps if weights go by area
+    bool reaches; // further than what the filter makes of it
 };
 
 // (v, 0) x p
@@ -44,13 +46,19 @@ vec3 flat_cross(vec2 v, vec3 p)
     return vec3(v.y * p.z, -v.x * p.z, v.x * p.y - v.y * p.x);
 }
 
-// The half axis that is drawn in place of one of length l.
-float widened_axis(float l, float h)
+// Along both axes, the plane as it is.
+void lengthen(inout Widened widened, vec2 by)
 {
-    return max(sqrt(PART_OF_AXIS * FORMULA(FORMULA_WIDENED, l * l) + PART_OF_FILTER * h * h), max(l, h));
+    widened.s *= by.x;
+    widened.t *= by.y;
+    widened.n0 *= by.y;
+    widened.n1 *= by.x;
+    widened.n2 *= by.x * by.y;
+    widened.det *= by.x * by.y;
 }
 
-Widened adjust_tangents(vec3 p, vec3 s, vec3 t)
+// `may_reach`: it lies at a border, and is no deeper for a camera than what may reach.
+Widened adjust_tangents(vec3 p, vec3 s, vec3 t, bool may_reach)
 {
     Principal axes = principal_axes(p, s, t);
     float h = FORMULA(FORMULA_FILTER_RADIUS, frame.filter_radius);
@@ -75,5 +83,9 @@ Widened adjust_tangents(vec3 p, vec3 s, vec3 t)
     widened.n2.z += l1 * l2 * p.z * p.z;
     widened.det = l1 * l2 * p.z * p.z * p.z;
     widened.share = FORMULA(FORMULA_SHARE, max(axes.major * minor / (l1 * l2), LEAST_SHARE));
+    widened.reaches = REACHES && may_reach && minor >= LEAST_REACHING * h;
+    if (widened.reaches) {
+        lengthen(widened, vec2(reaching_axis(axes.major, h) / l1, reaching_axis(minor, h) / l2));
+    }
     return widened;
 }

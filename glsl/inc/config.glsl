@@ -55,6 +55,7 @@
 #define SPEC_TINTED 65         // Constant: colors of chunks are multiplied by something (`inc/tints.glsl`).
 #define SPEC_OUTLINES 64       // Constant: rims of splats are black (`inc/outline.glsl`).
 #define SPEC_SHARP 72         // Constant: curves cut off some splats of the object, in this chunk or in others.
+#define SPEC_REACHES 66         // Constant: some splats lie at a border, and reach further than their rims (`inc/reach.glsl`).
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
 // What cuts splats, for SPEC_PARTED.

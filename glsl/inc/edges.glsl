@@ -26,6 +26,9 @@
 // opacity is max(A, C), and whole where next to nothing is missing. Own parts of several splats are taken for independent: what they leave
 // uncovered multiplies.
 //
+// Where a surface has a border, C is short of it beyond the middle of the ramp, for widened splats end there: those at a border reach further, and have another C (reach.glsl).
+// They lie beside each other along it, so that the one that covers most stands for all of them; what they and the others leave uncovered multiplies.
+//
 // Rough surfaces, as scanners measure them with noise, sum to less in places the flatter they are seen: their overlap is taken for less (src/geometry/overlaps.rs).
 //
 // Sharp surfaces are made of ellipses through the corners of triangles, slivers among them: at the corners of a flat side, and at its ridges, where
@@ -37,6 +40,8 @@
 
 #include "inc/minor_axis.glsl"
 #include "inc/smooth_step.glsl"
+#include "inc/widened.glsl"
+#include "inc/reach.glsl"
 
 const float ROOT_TWO_PI = 2.5066283;
 const float LN_2 = 0.69314718;
@@ -47,6 +52,9 @@ layout(constant_id = SPEC_FILTER_PX) const float FILTER_PX = 1.41421356; // h; t
 const float NEARLY_WHOLE = 0.96;
 
 const float LEFT_OUT = 0.225;
+
+// Less than any argument of Phi.
+const float NO_BORDER = -9.0;
 
 // What falls as steeply, and no steeper, may end there or go on.
 const float NOT_FLAT = 0.45;
@@ -60,6 +68,32 @@ vec2 own_coverage(vec4 uv)
     float sureness = smooth_step(2.0 * sqrt(rho2) * minor_px / FILTER_PX - 1.0); // from none at l2 = h / 2 to all at h
     float slope = sureness * minor_px / (ROOT_TWO_PI * FILTER_PX);
     return vec2(0.5 * sureness + slope * rho2, slope);
+}
+
+// Of a splat at a border, which reaches further (reach.glsl), the argument of Phi: x, which is returned, less z u^2 + w v^2. r^2 in the filtered ellipse is x u^2 + y v^2.
+float border_distance(vec4 uv, out vec4 reach)
+{
+    vec2 reaching_px = inversesqrt(vec2(dot(uv.xy, uv.xy), dot(uv.zw, uv.zw)));
+    vec2 own_px = max(reaching_px - REACH * FILTER_PX, LEAST_REACHING * FILTER_PX);
+    vec2 filtered_px = vec2(widened_axis(own_px.x, FILTER_PX), widened_axis(own_px.y, FILTER_PX));
+    float size = FORMULA(FORMULA_BORDER_DISTANCE, sqrt(own_px.x * own_px.y) / FILTER_PX); // g
+    float narrow = max(0.5 - size, 0.0);
+    vec2 to_filtered = reaching_px / filtered_px;
+    vec2 to_own = reaching_px / own_px;
+    reach = vec4(to_filtered * to_filtered, size * to_own * to_own);
+    return size - narrow * (2.0 + narrow);
+}
+
+// Phi within 1.5e-4 (Bowling, Khasawneh, Kaewkuekool, Cho: "A logistic approximation to the cumulative normal distribution", JIEM 2(1), 2009).
+float normal_distribution(float z)
+{
+    return 1.0 / (1.0 + exp(-z * (1.5976 + 0.07056 * z * z)));
+}
+
+// What splats cover by themselves: what others leave uncovered, and the largest argument of Phi of those at a border. Of what is right as it is, next to nothing is not missing.
+float own_of(float gap, float border)
+{
+    return REACHES ? 1.0 - gap * (1.0 - NEARLY_WHOLE * normal_distribution(border)) : 1.0 - gap;
 }
 
 // How steeply A falls, over how steeply it falls at a border. `fall`: by how much a pixel, over twice the decline of the kernel's logarithm at the center (kernel.glsl).

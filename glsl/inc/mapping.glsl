@@ -28,6 +28,7 @@ struct Mapping {
     float share;         // of its weight that the filter leaves to the splat
     bool regular;        // see below
     bool faces_away;     // the normal was turned
+    bool reaches;        // further than what the filter makes of it (reach.glsl)
     bool edge_on;        // the plane holds the eye: only a filter makes the splat visible
 };
 
@@ -118,10 +119,15 @@ bool map_splat(uint index, out Mapping m)
     vec3 ray = ray_through(p);
 
     m.share = 1.0;
+    m.reaches = false;
     bool is_widened = FILTER == FILTER_ADJUST && m.regular;
     Widened widened;
     if (is_widened) {
-        widened = adjust_tangents(ray, s, t);
+        // What is regular shall stay so.
+        float reaching_depth = MOST_REACH * depth_radius;
+        bool may_reach = REACHES && splat.at_border && p.z - reaching_depth >= nearest && (ORTHOGRAPHIC || reaching_depth <= REGULAR_DEPTH_RATIO * p.z);
+        widened = adjust_tangents(ray, s, t, may_reach);
+        m.reaches = widened.reaches;
         s = widened.s;
         t = widened.t;
         m.share = widened.share;

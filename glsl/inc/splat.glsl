@@ -92,6 +92,7 @@ struct Splat {
     vec3 n;        // the normal in the axes of local space, about 1 long
     float area;    // s x t over n, rotated
     float epsilon_share; // OWN_EPSILON: of epsilon, what the neighborhood has room for; above 0, at most 1
+    bool at_border;      // REACHES: of its surface
 };
 
 // Knuth's two-sum of what is moved and the origin: exact but for the sum of what both left.
@@ -154,7 +155,7 @@ struct Stored {
     vec3 position_low;
     vec3 s; // of a disk its normal
     vec3 t;
-    uint two; // lower half: 1 less the share of epsilon, 0 where nobody looked; upper half: one over the overlap
+    uint two; // the last bit: at a border; of the lower half the others: 1 less the share of epsilon, 0 where nobody looked; upper half: one over the overlap
 };
 
 Stored load_stored(uint index)
@@ -231,7 +232,8 @@ Splat load_splat(uint index)
     splat.p *= splat.unit;
     splat.radius *= splat.unit;
     splat.n = normal_of(stored);
-    splat.epsilon_share = OWN_EPSILON ? 1.0 - unpackUnorm2x16(stored.two).x : 1.0;
+    splat.epsilon_share = OWN_EPSILON ? 1.0 - unpackUnorm2x16(stored.two & ~1u).x : 1.0;
+    splat.at_border = REACHES && (stored.two & 1u) != 0;
     if (ELLIPSES) {
         set_ellipse(splat, stored);
     } else {

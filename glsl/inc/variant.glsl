@@ -24,6 +24,7 @@ layout(constant_id = SPEC_HALF_SUMS) const bool HALF_SUMS = false;
 layout(constant_id = SPEC_LEVELS) const uint LEVELS = LEVELS_NONE;
 layout(constant_id = SPEC_BLENDED) const bool BLENDED = false;
 layout(constant_id = SPEC_COVERAGE_EDGES) const bool COVERAGE_EDGES = false;
+layout(constant_id = SPEC_REACHES) const bool REACHES = false;
 layout(constant_id = SPEC_TWO_SIDED) const bool TWO_SIDED = false;
 
 // Regular splats (see mapping.glsl) are mapped by an affine map: u and v are linear in the image. Of an orthographic camera all are.

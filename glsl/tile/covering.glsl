@@ -17,7 +17,8 @@ float summed[ROWS];       // the sum of weights over the overlap; where that of 
 vec2 fall[ROWS];          // by how much the sum falls a pixel along x and y (edge_opacity)
 float gap[ROWS];          // what disks by themselves leave uncovered
 float outlined[ROWS];     // OUTLINED: what ellipses cover that no filter has widened
-vec2 uncut[ROWS];         // CUTS: the same sum and gap of splats that no curve cuts in the pixel
+float border[ROWS];       // REACHES: of disks at a border, which don't count there, the largest argument of Phi
+vec3 uncut[ROWS];         // CUTS: the same sum, gap and argument of splats that no curve cuts in the pixel
 vec4 cut_toward[ROWS];    // CUTS: the sum of others, by the direction in which curves keep,
 vec4 kept_toward[ROWS];   // and of what these leave of them
 
@@ -34,20 +35,25 @@ void begin_covering(int row)
     summed[row] = 0.0;
     fall[row] = vec2(0.0);
     gap[row] = 1.0;
-    uncut[row] = vec2(0.0, 1.0);
     outlined[row] = 0.0;
+    border[row] = NO_BORDER;
+    uncut[row] = vec3(0.0, 1.0, NO_BORDER);
     cut_toward[row] = vec4(0.0);
     kept_toward[row] = vec4(0.0);
 }
 
-// `weight`: over the overlap, as if nothing were cut off. `falls`: by how much it falls a pixel. `part`: what the splat covers by itself. `own_ellipse`: and as no filter has widened it. `kept`: what curves leave (tile/clip.glsl).
-void cover(float weight, vec2 falls, float part, float own_ellipse, float kept, int row)
+// `weight`: over the overlap, as if nothing were cut off. `falls`: by how much it falls a pixel. `part`: what the splat covers by itself; of one `at_border`, the argument of Phi. `own_ellipse`: and as no filter has widened it. `kept`: what curves leave (tile/clip.glsl).
+void cover(float weight, vec2 falls, float part, bool at_border, float own_ellipse, float kept, int row)
 {
-    float left = 1.0 - clamp(part, 0.0, 1.0);
+    float left = REACHES && at_border ? 1.0 : 1.0 - clamp(part, 0.0, 1.0);
+    float of_border = REACHES && at_border ? part : NO_BORDER;
     if (OUTLINED) {
         outlined[row] += own_ellipse;
     }
     gap[row] *= left;
+    if (REACHES) {
+        border[row] = max(border[row], of_border);
+    }
     fall[row] += falls;
     if (has_own_sum()) {
         summed[row] += weight;
@@ -55,17 +61,17 @@ void cover(float weight, vec2 falls, float part, float own_ellipse, float kept, 
     if (CUTS) {
         float part_kept = part_of(kept);
         float whole = clamp(CUT_BELOW * part_kept - (CUT_BELOW - 1.0), 0.0, 1.0);
-        uncut[row] = vec2(uncut[row].x + whole * weight, uncut[row].y * mix(1.0, left, whole));
+        uncut[row] = vec3(uncut[row].x + whole * weight, uncut[row].y * mix(1.0, left, whole), whole > 0.0 ? max(uncut[row].z, of_border) : uncut[row].z);
         vec4 toward = mix(vec4(0.0), vec4(weight - whole * weight), equal(vec4(toward_of(kept)), vec4(0.0, 1.0, 2.0, 3.0)));
         cut_toward[row] += toward;
         kept_toward[row] += part_kept * toward;
     }
 }
 
-// What splats cover by themselves, of what they leave uncovered and the sum of what their own ellipses cover.
-float own_of(float gap, float outlined)
+// What splats leave uncovered by themselves, and with the sum of what their own ellipses cover.
+float gap_of(int row)
 {
-    return OUTLINED ? max(1.0 - gap, min(outlined, 1.0)) : 1.0 - gap;
+    return OUTLINED ? min(gap[row], max(1.0 - outlined[row], 0.0)) : gap[row];
 }
 
 // Of what the surface would cover, what curves leave. Opposite directions are both sides of a ridge, and neighbors may be one side whose curves
@@ -74,7 +80,7 @@ float kept_part(int row)
 {
     vec4 pairs = (kept_toward[row] + kept_toward[row].yzwx) / max(cut_toward[row] + cut_toward[row].yzwx, 1e-20);
     float kept = min(pairs.x + pairs.z, pairs.y + pairs.w);
-    return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y, NOT_FLAT)), 1.0) : 1.0;
+    return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, own_of(uncut[row].y, uncut[row].z), NOT_FLAT)), 1.0) : 1.0;
 }
 
 // The sum of weights alone, for whoever finds the opacity from it.
@@ -88,5 +94,5 @@ float opacity_of(int row)
 {
     float sum = has_own_sum() ? summed[row] : colors[row].w;
     float steepness = steepness_of(sum, length(fall[row]));
-    return kept_part(row) * edge_opacity(sum, own_of(gap[row], outlined[row]), OF_LAYERS ? max(steepness, NOT_FLAT) : steepness);
+    return kept_part(row) * edge_opacity(sum, own_of(gap_of(row), border[row]), OF_LAYERS ? max(steepness, NOT_FLAT) : steepness);
 }

@@ -43,7 +43,8 @@ SplatAttributes broadcast(SplatAttributes own, uint place)
     return SplatAttributes(subgroupShuffle(own.color, place), subgroupShuffle(own.alpha, place),
         subgroupShuffle(own.normal, place), subgroupShuffle(own.share, place),
         COVERAGE_EDGES ? subgroupShuffle(own.own_part, place) : vec2(0.0),
-        COVERAGE_EDGES && CURVED ? subgroupShuffle(own.outline, place) : vec4(0.0));
+        COVERAGE_EDGES && CURVED ? subgroupShuffle(own.outline, place) : vec4(0.0),
+        REACHES ? subgroupShuffle(own.reach, place) : vec4(0.0));
 }
 
 // Of the invocation's own splat.

@@ -178,20 +178,25 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     }
     float inverse_w2 = COVERAGE_EDGES && !AFFINE ? 1.0 / (uvw.z * uvw.z) : 1.0;
     float r2 = COVERAGE_EDGES ? dot(uvw.xy, uvw.xy) * inverse_w2 : r2_of(uvw);
-    float kernel = kernel_weight(r2);
+    // Of a splat that reaches further, r^2 is that of what the filter makes of it, where its weights end.
+    vec2 squares = uvw.xy * uvw.xy * inverse_w2;
+    r2 = REACHES ? dot(attributes.reach.xy, squares) : r2;
+    bool at_border = REACHES && attributes.reach.x > 1.0;
+    float kernel = at_border && r2 > COVERAGE_R2 ? 0.0 : kernel_weight(r2);
     float shared_weight = max(kernel * attributes.share, LEAST_WEIGHT);
     float weight = inside ? (WEIGHTED ? shared_weight : kernel) : 0.0;
     if (CUTS) {
         weight *= priority(kept);
     }
     if (COVERAGE_EDGES) {
-        float part = attributes.own_part.x - attributes.own_part.y * r2;
+        float part = attributes.own_part.x - (REACHES ? dot(attributes.reach.zw, squares) : attributes.own_part.y * r2);
         // Half of how r^2 changes a pixel, by the map as it is at the splat's center.
-        vec2 change = splat.uv.xy * uvw.x + splat.uv.zw * uvw.y;
+        vec2 along = REACHES ? attributes.reach.xy * uvw.xy : uvw.xy;
+        vec2 change = splat.uv.xy * along.x + splat.uv.zw * along.y;
         covering = all_cover ? covering : inside;
         float covers = covering ? shared_weight : 0.0;
         float own_ellipse = OUTLINED ? part_of_outline(attributes.outline, splat.uv, AFFINE ? vec3(uvw.xy, 1.0) : uvw) : 0.0;
-        cover(covers, covers * kernel_decline(r2) * inverse_w2 * change, covering ? part : 0.0, covering ? own_ellipse : 0.0, covering ? kept : 1.0, row);
+        cover(covers, covers * kernel_decline(r2) * inverse_w2 * change, covering ? part : 0.0, covering && at_border, covering ? own_ellipse : 0.0, covering ? kept : 1.0, row);
     }
     bool beyond = CREASES && is_beyond(kept);
     if (CREASES) {

@@ -3,8 +3,8 @@
 // parts off it, or planes may; the shift, negative (or -0) where it is
 // TWO_SIDED and faces away.
 // records1: u along x and along y, v along x and along y, per pixel. records2: w along x and along y; the share of its weight
-// that a filter leaves; the normal's x. records3: its y and z; red, green, blue and alpha, 16 bits each; OUTLINED: 1 less how
-// surely its surface goes on in the place of alpha.
+// that a filter leaves, negative (or -0) where it reaches further than its rim (inc/reach.glsl); the normal's x. records3: its y and z; red, green, blue and alpha, 16 bits each;
+// OUTLINED: 1 less how surely its surface goes on in the place of alpha.
 //
 // (uw, vw, w) are over w0: w is about 1 in all pixels of a regular splat, so that squares neither under- nor overflow and
 // coverage needs no division: u^2 + v^2 <= R^2 is (uw)^2 + (vw)^2 <= R^2 w^2. Where the map is affine, u and v are as they are.
@@ -44,4 +44,5 @@ struct SplatAttributes {
     float share;
     vec2 own_part; // COVERAGE_EDGES: what it covers by itself is x - y r^2
     vec4 outline;  // OUTLINED: where it ends, as no filter has widened it (inc/outlined.glsl)
+    vec4 reach;    // REACHES: r^2 is x u^2 + y v^2; z u^2 + w v^2 stands in place of y r^2
 };

@@ -36,9 +36,13 @@ SplatAttributes load_attributes(Splat splat)
     attributes.color = FORMULA(FORMULA_COLOR, vec3(red_green, blue_alpha.x));
     attributes.alpha = FORMULA(FORMULA_ALPHA, blue_alpha.y);
     attributes.normal = vec3(r2.w, uintBitsToFloat(r3.xy));
-    attributes.share = r2.z;
+    attributes.share = REACHES ? abs(r2.z) : r2.z;
     attributes.own_part = COVERAGE_EDGES ? own_coverage(splat.uv) : vec2(0.0);
     attributes.outline = OUTLINED ? outline_of(splat.uv, 1.0 - blue_alpha.y) : vec4(0.0);
+    attributes.reach = vec4(vec2(1.0), vec2(attributes.own_part.y));
+    if (REACHES && floatBitsToInt(r2.z) < 0) {
+        attributes.own_part.x = border_distance(splat.uv, attributes.reach);
+    }
     if (BLENDED) {
         attributes.own_part *= attributes.alpha; // of what is opaque (tile_project.comp.glsl)
     }

@@ -1,5 +1,6 @@
 //! CPU preparation: what turns other models into splats.
 
+mod borders;
 mod bounded;
 mod cells;
 mod clip;
@@ -29,6 +30,7 @@ mod topology;
 mod turns;
 mod up;
 
+pub(crate) use borders::at_border;
 pub use cloud::{CloudReport, Sides, splats_from_points};
 pub use facing::{is_flat_in_front, share_facing};
 pub use fitness::{Fitness, Suited};

@@ -14,7 +14,7 @@
 //! disks' radii and of folds some splats wide, 0.08 of noise of a sixth and of folds that are narrower. From ROUGH on, to twice that, K μ is less, up to ROUGH_SUM times: their outlines, which are as rough, reach
 //! out by 0.3 pixels for it. What curves cut has a rule of its own.
 
-mod grids;
+pub(super) mod grids;
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -26,7 +26,7 @@ use super::clip::removes;
 use crate::scene::{Shapes, Splats};
 
 /// So many cells are a task.
-const CELLS_AT_ONCE: usize = 1024;
+pub(super) const CELLS_AT_ONCE: usize = 1024;
 
 /// Splats near whose centers the mean sum is looked for.
 const SAMPLES: usize = 1024;
@@ -131,7 +131,7 @@ fn from_center(n: usize, [to_u, to_v, normal]: [DVec3; 3]) -> DVec3 {
 }
 
 /// What gives u and v of a place when it is multiplied by them, counted from the center of splat `i`; and the unit normal.
-fn dual_frame(splats: &Splats, i: usize) -> [DVec3; 3] {
+pub(super) fn dual_frame(splats: &Splats, i: usize) -> [DVec3; 3] {
     match &splats.shapes {
         Shapes::Disks { normals, radii } => {
             let normal = normals[i].as_dvec3().normalize();

@@ -21,6 +21,8 @@ pub struct SizeBound {
     pub middle_px: [f64; 2],
     /// Radius of the low-pass filter in pixels; 0 without.
     pub filter_px: f64,
+    /// How much further than that splats reach, in pixels at their centers' depth.
+    pub reach_px: f64,
 }
 
 /// Radius over the nearest depth, up to which all splats are known to be regular.
@@ -45,6 +47,7 @@ fn all_regular(bound: &SizeBound) -> bool {
 /// more here), h of which is up to `p / z ≤ 1 + r/z` as much where the disk is nearest, at z. (`adjust-paper` lengthens each vector by
 /// itself, two to h in any directions, which together reach √2 h: that is its h here. `max` adds its own disk about the center: of the
 /// splat's ends a and b from there, max(a, h) + max(b, h) ≤ √((a + b)² + 4 h²) where a ≤ 6 b, as of all with d ≤ 2/3 p: a ≤ 5 b.)
+/// What lies at a border reaches a h further than its rim (`glsl/inc/reach.glsl`), which is up to a h more than the filter makes of it, at either end.
 /// Three pixels for rounding. Under parallel rays, x is X, and all of that is without depths.
 pub fn largest_box_px(bound: &SizeBound) -> f64 {
     box_px(bound, bound.largest_radius)
@@ -68,29 +71,31 @@ pub fn box_within_px(bound: &SizeBound, radius: f64, most_x: f64) -> f64 {
         return f64::INFINITY;
     }
     if bound.is_orthographic {
-        return 1.01 * length(2.0 * radius * bound.focal_px, 2.0 * bound.filter_px) + 3.0;
+        let filtered_px = length(2.0 * radius * bound.focal_px, 2.0 * bound.filter_px);
+        return 1.01 * (filtered_px + 2.0 * bound.reach_px) + 3.0;
     }
     let per_z = 1.0 / bound.nearest_z;
     let splat_px = 2.0 * radius * (1.0 + most_x) * per_z * bound.focal_px;
-    let filter_px = 2.0 * bound.filter_px * (1.0 + radius * per_z);
-    1.01 * length(splat_px, filter_px) + 3.0
+    let nearer = 2.0 * (1.0 + radius * per_z);
+    1.01 * (length(splat_px, bound.filter_px * nearer) + bound.reach_px * nearer) + 3.0
 }
 
 /// That bound in f32, four times, each with a smallest depth and a largest radius of its own; what f32 rounds is within the bound's hundredth.
 #[inline(always)]
 pub fn boxes_within_px(bound: &SizeBound, [nearest_z, radius, most_x]: [Vec4; 3]) -> Vec4 {
     let (focal_px, filter_px) = (bound.focal_px as f32, bound.filter_px as f32);
-    let (splat_px, filter_px) = if bound.is_orthographic {
-        (2.0 * radius * focal_px, Vec4::splat(2.0 * filter_px))
+    let (splat_px, nearer) = if bound.is_orthographic {
+        (2.0 * radius * focal_px, Vec4::splat(2.0))
     } else {
         let per_z = 1.0 / nearest_z;
-        (2.0 * radius * (1.0 + most_x) * per_z * focal_px, 2.0 * filter_px * (1.0 + radius * per_z))
+        (2.0 * radius * (1.0 + most_x) * per_z * focal_px, 2.0 * (1.0 + radius * per_z))
     };
+    let (filter_px, reach_px) = (filter_px * nearer, bound.reach_px as f32 * nearer);
     let is_beyond = nearest_z.cmpgt(Vec4::splat(bound.near as f32));
     let is_small = radius.cmple(LARGEST_RADIUS_RATIO as f32 * nearest_z);
     let are_regular = if bound.is_orthographic { is_beyond } else { is_beyond & is_small };
     let length = (splat_px * splat_px + filter_px * filter_px).sqrt();
-    Vec4::select(are_regular, 1.01 * length + 3.0, Vec4::INFINITY)
+    Vec4::select(are_regular, 1.01 * (length + reach_px) + 3.0, Vec4::INFINITY)
 }
 
 /// √(x² + y²), in a tenth of the time of `hypot`: what is too small for squares does not matter beside whole pixels, and what is too large is infinite.
@@ -124,7 +129,7 @@ mod tests {
             prop_assume!(nearest_z > 0.1);
             let bound = SizeBound {
                 nearest_z, largest_radius: s.length().hypot(t.length()), near: 0.01,
-                focal_px: 100.0, is_orthographic: false, size_px: [200.0, 100.0], middle_px: [100.0, 50.0], filter_px: 0.0,
+                focal_px: 100.0, is_orthographic: false, size_px: [200.0, 100.0], middle_px: [100.0, 50.0], filter_px: 0.0, reach_px: 0.0,
             };
             let half = [1.0, 0.5];
             for axis in 0..2 {
@@ -183,6 +188,7 @@ mod tests {
                 size_px: [480.0; 2],
                 middle_px: [240.0; 2],
                 filter_px: std::f64::consts::SQRT_2,
+                reach_px: 0.0,
             };
             // Three pixels of the bound are for rounding.
             let most_px = box_px(&bound, radius) - 3.0;
@@ -207,6 +213,7 @@ mod tests {
             size_px: [100.0; 2],
             middle_px: [50.0; 2],
             filter_px: 0.0,
+            reach_px: 0.0,
         };
         assert_eq!(largest_box_px(&bound), f64::INFINITY);
     }
@@ -225,6 +232,7 @@ mod tests {
                 size_px: [640.0, 480.0],
                 middle_px: [320.0, 240.0],
                 filter_px: between(0.0, 1.5),
+                reach_px: 0.0,
             };
             let lanes = [0; 4].map(|_| [between(-0.1, 2.0), between(0.0, 1.0).powi(4), between(0.0, 3.0)]);
             let lane = |of: usize| Vec4::from_array(lanes.map(|lane| lane[of] as f32));

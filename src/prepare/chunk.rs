@@ -64,6 +64,8 @@ pub struct Chunk {
     pub own_epsilon: bool,
     /// It is of an object that clip curves cut, some of it or all.
     pub is_sharp: bool,
+    /// Some splats of its object lie at a border, and reach further than their rims.
+    pub has_borders: bool,
     /// Disks in 16 bytes, colors in 4: [`SplatFormat::Packed`](crate::scene::SplatFormat::Packed).
     pub packed: bool,
     /// Its levels of detail, if it has any.
@@ -138,6 +140,7 @@ impl Chunk {
             epsilon: None,
             own_epsilon: false,
             is_sharp: false,
+            has_borders: false,
             packed: survey.packed,
             levels: levels.map(|(levels, _)| levels),
             inverse_overlap: 1.0,

@@ -22,7 +22,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    geometry::Overlaps,
+    geometry::{Overlaps, at_border},
     scene::{Bounds, Clip, DefectCounts, Epsilon, Object, Opacity, Order, Room, Scene, SplatFormat},
     vk::Limits,
 };
@@ -180,8 +180,7 @@ impl Cut<'_, '_> {
             .map_or_else(|| splats.colors.opacity() != Opacity::Opaque, |(leveled, _)| leveled.transparent);
         // Packed disks have no room for a share.
         let exact = storage.format == SplatFormat::Exact;
-        // So that a bar is there meanwhile.
-        self.step(0);
+        self.step(0); // so that a bar is there meanwhile
         let one_for_all = |overlap: f64| vec![overlap.recip() as f32; splats.len()];
         let is_of_cells = levels.is_some_and(|(_, levels)| levels.part == LevelPart::OfCells);
         let known = levels.and_then(|(leveled, _)| leveled.inverse_overlaps.clone());
@@ -196,19 +195,29 @@ impl Cut<'_, '_> {
         };
         let is_sharp = !splats.clips.is_empty();
         let radii = Epsilon::auto_radii(transparent);
-        let Sharp { shares, bends } = match is_sharp {
-            true => Sharp::of(splats, radii),
-            false => Sharp::default(),
-        };
+        let Sharp { shares, bends } = if is_sharp { Sharp::of(splats, radii) } else { Sharp::default() };
         let shares = match auto && exact {
             true if is_sharp => Some(shares),
             true if transparent || !object.closed => near_surfaces::shares(splats, radii),
             _ => None,
         };
+        // Layers have no room for what such splats cover; beside polygons of the same surface none is at its border.
+        let without = transparent || is_sharp || !exact || levels.is_some() || self.beside_polygons;
+        let at_border = if without { None } else { at_border(splats) };
         // Before it is cut, so that chunks are compact; and after what needs room of its own.
         let sequence = Sequence::of(splats, order);
-        let part =
-            Part { number, object, numbers, transparent, inverse_overlaps, epsilon, shares, bends, levels };
+        let part = Part {
+            number,
+            object,
+            numbers,
+            transparent,
+            inverse_overlaps,
+            epsilon,
+            shares,
+            bends,
+            at_border,
+            levels,
+        };
         if splats.clips.is_empty() {
             return self.sequence(&part, &sequence);
         }
@@ -263,6 +272,7 @@ impl Cut<'_, '_> {
             chunk.epsilon = part.epsilon;
             chunk.own_epsilon = part.shares.is_some();
             chunk.is_sharp = !splats.clips.is_empty();
+            chunk.has_borders = part.at_border.is_some();
             let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
             let packed = batches.map(|which| {
                 let packed = pack::pack(splats, which, &survey, part.beside());

@@ -1,7 +1,7 @@
 //! The layout of splats in GPU buffers.
 //!
 //! Disks, 32 bytes: `position radius`, `normal two`. Ellipses, 48 bytes: `position major-radius`, `s two`, `t weight`, the weight that of a node (`levels.rs`); of a
-//! surface with sharp edges, `t bend` (`near_surfaces/sharp.rs`). Local space, f32; `two` is 1 less the splat's share of ε (`near_surfaces.rs`) as a 16-bit fraction (error 8e-6), and in the upper half one over its overlap
+//! surface with sharp edges, `t bend` (`near_surfaces/sharp.rs`). Local space, f32; `two` is 1 less the splat's share of ε (`near_surfaces.rs`) as a 15-bit fraction (error 1.5e-5), a bit that tells whether it lies at a border (`geometry/borders.rs`), and in the upper half one over its overlap
 //! (`geometry/overlaps.rs`), in steps of 2⁻¹⁴ (error 3e-5). Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
 //! unless one is for all, are those of `packed.rs`: 16 and 4 bytes.
 
@@ -104,6 +104,8 @@ pub(super) struct Beside<'a> {
     pub shares: Option<&'a [f32]>,
     /// How a surface with sharp edges turns away near each, and how wide it is; of others none.
     pub bends: &'a [u32],
+    /// Whether each lies at a border, where some do.
+    pub at_border: Option<&'a [bool]>,
     /// One over their overlaps.
     pub inverse_overlaps: Option<&'a [f32]>,
     /// Their levels of detail.
@@ -208,7 +210,8 @@ pub(super) fn pack_behind(
         let Ok((position, radius)) = local(splats, i, rebase) else { continue };
         let less = beside.shares.map_or(0.0, |shares| 1.0 - shares[i]);
         let inverse_overlap = beside.inverse_overlaps.map_or(1.0, |inverse| inverse[i]);
-        let two = two_in_one(less, inverse_overlap);
+        let at_border = beside.at_border.is_some_and(|at| at[i]);
+        let two = two_in_one(less, at_border, inverse_overlap);
         match &splats.shapes {
             Shapes::Disks { normals, .. } => {
                 // In f64: a normal may have any length that f32 has.
@@ -248,10 +251,10 @@ pub(super) fn pack_behind(
     }
 }
 
-/// The word of a splat's share of ε, less than 1 by this, and of one over its overlap.
-fn two_in_one(less: f32, inverse_overlap: f32) -> u32 {
-    let fraction = (less * 65_535.0).round() as u16;
-    u32::from(fraction) | inverse_overlap_in_upper_half(inverse_overlap.into())
+/// The word of a splat's share of ε, less than 1 by this, of whether it lies at a border, and of one over its overlap.
+fn two_in_one(less: f32, at_border: bool, inverse_overlap: f32) -> u32 {
+    let fraction = 2 * (less * 32_767.5).round().min(32_767.0) as u16;
+    u32::from(fraction) | u32::from(at_border) | inverse_overlap_in_upper_half(inverse_overlap.into())
 }
 
 /// One over an overlap, or what it is multiplied by, in steps of 2⁻¹⁴: at least one, and below 4.

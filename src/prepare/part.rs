@@ -21,6 +21,8 @@ pub(super) struct Part<'a> {
     pub shares: Option<Vec<f32>>,
     /// How a surface with sharp edges turns away near each, and how wide it is; of others none.
     pub bends: Vec<u32>,
+    /// Whether each splat lies at a border, where some do.
+    pub at_border: Option<Vec<bool>>,
     pub levels: Option<(&'a Leveled, ChunkLevels)>,
 }
 
@@ -50,6 +52,7 @@ impl Part<'_> {
         Beside {
             shares: self.shares.as_deref(),
             bends: &self.bends,
+            at_border: self.at_border.as_deref(),
             inverse_overlaps: Some(&self.inverse_overlaps),
             levels: self.levels,
         }

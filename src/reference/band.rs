@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::front::Front;
 use super::kernel::{decline, limit_r2, weight};
@@ -187,15 +187,17 @@ fn translucent(
     let (ray, near, kernel) = (frame.view.ray(column, row), frame.view.near, frame.settings.kernel);
     let fragment = splat.fragment(ray, &frame.view, kernel)?;
     // With the filter `max`, where the disk is not, the low-pass filter is.
-    let r2 = splat.hit(ray, near).map_or(1.0, |hit| hit.r2);
+    let hit = splat.hit(ray, near);
+    let r2 = hit.map_or(1.0, |hit| splat.filtered_r2(&hit));
     Some(Translucent {
         z: fragment.z,
         z_shifted: fragment.z * splat.shift,
         weight: fragment.weight,
         kernel: weight(kernel, r2),
-        fall: decline(kernel, r2) * splat.change_of_r2(ray, &frame.view),
+        fall: decline(kernel, r2) * splat.change_of_filtered_r2(ray, &frame.view),
         outlined: splat.outlined(ray, &frame.view),
         r2,
+        uv: hit.map_or(DVec2::X, |hit| hit.uv),
         kept: splat.kept(ray, fragment.z, &frame.view),
         source: Source::Splat(splat_index),
     })

@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use super::drawn_clip::Kept;
 use super::layers::Translucent;
+use super::reach::{Reach, normal_distribution};
 use super::splat::DrawnSplat;
 use crate::scene::{MeshObject, Object, Opacity, Scene, Settings};
 
@@ -55,6 +56,8 @@ pub(super) struct Covering {
     pub left_out: f64,
     /// It is seen in layers: what is missing of one may be in the next.
     pub in_layers: bool,
+    /// It lies at a border, and covers by itself as far as it reaches.
+    pub reach: Option<Reach>,
 }
 
 impl Covering {
@@ -79,7 +82,15 @@ struct Part<'a> {
     /// What its own ellipse covers, as no filter has widened it.
     outlined: f64,
     r2: f64,
+    uv: DVec2,
     kept: Option<Kept>,
+}
+
+impl Part<'_> {
+    /// Over the overlap.
+    fn weight(&self) -> f64 {
+        self.covering.share * self.kernel
+    }
 }
 
 /// From 0 at `x` = 0 to 1 at 1.
@@ -110,35 +121,46 @@ fn whole(sum: f64, steepness: f64, alone: f64, covering: &Covering) -> f64 {
     ((inside + ends * (at_end - inside)).max(alone) / NEARLY_WHOLE).min(1.0)
 }
 
-/// The part of a pixel that splats of one surface cover together. What they cover by themselves is taken for independent, and what their own ellipses do sums to a whole where a sharp
-/// surface goes on.
+/// The part of a pixel that splats of one surface cover together. What they cover by themselves is taken for independent; but of those at a border, which lie along one, the one that
+/// covers most stands for all; and what their own ellipses do sums to a whole where a sharp surface goes on.
 ///
 /// Up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part: the mean over the splats that are cut toward there, by their
 /// weights. Those of both sides of a ridge leave parts that add up. What no curve cuts in the pixel is left, too.
 fn opacity(parts: &[Part]) -> f64 {
     let Some(Part { covering, .. }) = parts.first() else { return 0.0 };
-    let weight = |part: &Part| part.covering.share * part.kernel;
-    let alone = |count: &dyn Fn(&Part) -> f64| -> f64 {
-        let gaps = parts.iter().map(|part| 1.0 - count(part) * part.covering.alone(part.r2).clamp(0.0, 1.0));
-        1.0 - gaps.product::<f64>()
-    };
     let outlined = parts.iter().map(|part| part.outlined).sum::<f64>().min(1.0);
-    let all: f64 = parts.iter().map(weight).sum();
+    let all: f64 = parts.iter().map(Part::weight).sum();
     let fall: DVec2 = parts.iter().map(|part| part.covering.share * part.fall).sum();
-    kept(parts, &alone)
-        * whole(all, steepness(all, fall.length(), covering), alone(&|_| 1.0).max(outlined), covering)
+    let alone = alone(parts, outlined, |_| 1.0);
+    kept(parts) * whole(all, steepness(all, fall.length(), covering), alone, covering)
 }
 
+/// What disks cover by themselves, each of which counts so much, where their own ellipses cover as much together.
+fn alone(parts: &[Part], outlined: f64, count: impl Fn(&Part) -> f64) -> f64 {
+    let (mut gap, mut within) = (1.0, f64::NEG_INFINITY);
+    for part in parts {
+        match (&part.covering.reach, count(part)) {
+            (None, counts) => gap *= 1.0 - counts * part.covering.alone(part.r2).clamp(0.0, 1.0),
+            (Some(_), 0.0) => {}
+            (Some(reach), _) => within = within.max(reach.within_rim(part.uv)),
+        }
+    }
+    // Which is right as it is: what is all but covered does not count as all.
+    1.0 - gap.min(1.0 - outlined) * (1.0 - NEARLY_WHOLE * normal_distribution(within))
+}
+
+/// Splats at borders weigh nothing beyond what the filter makes of them, and are cut there, too.
+const LEAST_WEIGHT: f64 = 1e-18;
+
 /// What curves leave of it.
-fn kept(parts: &[Part], alone: &dyn Fn(&dyn Fn(&Part) -> f64) -> f64) -> f64 {
-    let weight = |part: &Part| part.covering.share * part.kernel;
+fn kept(parts: &[Part]) -> f64 {
     // What is cut off by less than a 32nd counts as cut and as not cut in part.
     let uncut = |part: &Part| part.kept.map_or(1.0, |kept| (32.0 * kept.part - 31.0).clamp(0.0, 1.0));
     let toward = [0, 1, 2, 3].map(|quarter| {
         let cut =
             parts.iter().filter_map(|part| Some((part, part.kept.filter(|kept| kept.toward == quarter)?)));
         cut.fold(DVec2::ZERO, |sums, (part, kept)| {
-            sums + weight(part) * (1.0 - uncut(part)) * DVec2::new(kept.part, 1.0)
+            sums + part.weight().max(LEAST_WEIGHT) * (1.0 - uncut(part)) * DVec2::new(kept.part, 1.0)
         })
     });
     // Both sides of a ridge keep in opposite directions. Splats of one side may fall into two quarters that are neighbors.
@@ -150,8 +172,8 @@ fn kept(parts: &[Part], alone: &dyn Fn(&dyn Fn(&Part) -> f64) -> f64) -> f64 {
     match f64::min(pair(0) + pair(2), pair(1) + pair(3)) {
         0.0 => 1.0,
         kept => {
-            let sum = parts.iter().map(|part| uncut(part) * weight(part)).sum();
-            kept.max(whole(sum, NOT_FLAT, alone(&uncut), covering)).min(1.0)
+            let sum = parts.iter().map(|part| uncut(part) * part.weight()).sum();
+            kept.max(whole(sum, NOT_FLAT, alone(parts, 0.0, uncut), covering)).min(1.0)
         }
     }
 }
@@ -164,8 +186,16 @@ pub(super) fn covered<'a>(
     let parts: Vec<_> = fragments
         .iter()
         .filter_map(|fragment| {
-            let Translucent { kernel, fall, outlined, r2, kept, .. } = **fragment;
-            Some(Part { covering: splat_of(fragment).covering.as_ref()?, kernel, fall, outlined, r2, kept })
+            let Translucent { kernel, fall, outlined, r2, uv, kept, .. } = **fragment;
+            Some(Part {
+                covering: splat_of(fragment).covering.as_ref()?,
+                kernel,
+                fall,
+                outlined,
+                r2,
+                uv,
+                kept,
+            })
         })
         .collect();
     opacity(&parts)

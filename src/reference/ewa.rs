@@ -63,6 +63,6 @@ impl Stretched {
     pub fn hit(&self, x: DVec2, near: f64) -> Option<Hit> {
         let uv = self.ellipse.uv(x);
         let z = (self.inverse_depth + self.per_uv.dot(uv)).recip();
-        (z >= near && z.is_finite()).then(|| Hit { z, r2: uv.length_squared() })
+        (z >= near && z.is_finite()).then_some(Hit { z, uv })
     }
 }

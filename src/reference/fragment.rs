@@ -6,6 +6,7 @@ use super::creases::is_undecided;
 use super::drawn_clip::{Clipped, Kept};
 use super::intersect::r2_margin;
 use super::kernel::weight;
+use super::reach::MOST_REACH;
 use super::splat::DrawnSplat;
 use super::view::View;
 use crate::scene::Kernel;
@@ -35,8 +36,9 @@ impl DrawnSplat {
         if self.square.is_some_and(|square| square.depth_inside(x) < 0.0) {
             return None;
         }
-        let disk = self.hit(ray, view.near).map(|hit| (hit.z, weight(kernel, hit.r2)));
-        let disk = disk.filter(|(_, weight)| *weight > 0.0);
+        // Up to its reach it covers; with a weight as far as its filtered kernel goes.
+        let disk = self.hit(ray, view.near).filter(|hit| weight(kernel, hit.r2()) > 0.0);
+        let disk = disk.map(|hit| (hit.z, weight(kernel, self.filtered_r2(&hit))));
         let low_pass = self.low_pass.map(|low_pass| (low_pass.z, weight(kernel, low_pass.r2(x))));
         let low_pass = low_pass.filter(|(_, weight)| *weight > 0.0);
         // The depth is the disk's own wherever the disk is.
@@ -72,9 +74,15 @@ impl DrawnSplat {
         }
 
         // How far r² is below the limit, with the margin and the depth.
-        let disk = self.hit(ray, view.near).map(|hit| {
+        let hit = self.hit(ray, view.near);
+        let disk = hit.map(|hit| {
             let margin = self.r2_margin(ray, hit.z, distance_px, view);
-            (limit_r2 - hit.r2, Rim { z: hit.z, margin })
+            (limit_r2 - hit.r2(), Rim { z: hit.z, margin })
+        });
+        // Where its weights end, if it reaches further.
+        let at_filtered = hit.zip(disk).filter(|_| self.reach.is_some()).is_some_and(|(hit, (_, rim))| {
+            let most = MOST_REACH * MOST_REACH;
+            (limit_r2 - self.filtered_r2(&hit)).abs() <= most * rim.margin
         });
         let low_pass = self.low_pass.map(|low_pass| {
             let margin = r2_margin(distance_px, low_pass.minor_px);
@@ -98,7 +106,7 @@ impl DrawnSplat {
         let at_curve = clipped == Clipped::Undecided || cut == Clipped::Undecided || at_half();
         if clipped == Clipped::Removed
             || cut == Clipped::Removed
-            || !(at_disk || at_low_pass || at_square || at_curve)
+            || !(at_disk || at_filtered || at_low_pass || at_square || at_curve)
         {
             return None;
         }

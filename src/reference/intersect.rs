@@ -4,9 +4,10 @@ use glam::{DVec2, DVec3};
 
 use super::affine::ImageEllipse;
 use super::ewa::Stretched;
-use super::filter::{minor_axis, projected};
+use super::filter::{minor_axis, orthogonalized, projected};
 use super::splat::DrawnSplat;
 use super::view::View;
+use crate::scene::{Filter, Rasterizer, Settings};
 
 /// How the image is mapped onto a splat.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +21,24 @@ pub(super) enum Map {
 }
 
 impl Map {
+    /// That of a regular splat with the tangent vectors that are drawn. All rasterizers but the affine ones draw the same picture.
+    pub fn of(center: DVec3, s: DVec3, t: DVec3, h: f64, settings: &Settings) -> Self {
+        let least = settings.floors().share;
+        match (settings.filter, settings.rasterizer) {
+            (Filter::Ewa, Rasterizer::AffineContour) => {
+                Self::Stretched(Stretched::of_contour(center, s, t, h, least))
+            }
+            // The filter brings its own map.
+            (Filter::Ewa, _) => Self::Stretched(Stretched::at_center(center, s, t, h, least)),
+            (_, Rasterizer::AffineContour) => Self::Affine(ImageEllipse::exact_contour(center, s, t)),
+            (_, Rasterizer::AffineCenter) => {
+                let (s, t) = orthogonalized(center, s, t);
+                Self::Affine(ImageEllipse::exact_at_center(center, s, t))
+            }
+            _ => Self::Projective,
+        }
+    }
+
     /// How large the ellipse in the image plane is: the root of the sum of the squares of both axes. `axes`: the images of the tangent vectors.
     pub fn size(&self, [s, t]: [DVec2; 2]) -> f64 {
         let [a, b] = match self {
@@ -36,8 +55,15 @@ impl Map {
 pub(super) struct Hit {
     /// View-space depth, at or beyond the near plane.
     pub z: f64,
+    /// u and v.
+    pub uv: DVec2,
+}
+
+impl Hit {
     /// `u² + v²`.
-    pub r2: f64,
+    pub fn r2(&self) -> f64 {
+        self.uv.length_squared()
+    }
 }
 
 impl DrawnSplat {
@@ -46,17 +72,26 @@ impl DrawnSplat {
         match &self.map {
             Map::Projective => self.plane_hit(ray, near),
             Map::Affine(ellipse) => {
-                let r2 = ellipse.uv(ray.truncate()).length_squared();
+                let uv = ellipse.uv(ray.truncate());
                 // An ellipse without width is not even near a pixel.
-                let hit = Hit { z: self.plane_depth(ray, near)?, r2 };
-                r2.is_finite().then_some(hit)
+                let hit = Hit { z: self.plane_depth(ray, near)?, uv };
+                hit.r2().is_finite().then_some(hit)
             }
             Map::Stretched(stretched) => stretched.hit(ray.truncate(), near),
         }
     }
 
-    /// How `r²` changes a pixel along x and y, by the map from the image to the splat as it is at its center; 0 where that can't be seen.
-    pub fn change_of_r2(&self, ray: DVec3, view: &View) -> DVec2 {
+    /// `u² + v²` of what the filter makes of it: that of a hit, unless it reaches further.
+    pub fn filtered_r2(&self, hit: &Hit) -> f64 {
+        self.filtered(hit.uv).length_squared()
+    }
+
+    fn filtered(&self, uv: DVec2) -> DVec2 {
+        self.reach.map_or(uv, |reach| reach.over_filtered * uv)
+    }
+
+    /// How that changes a pixel along x and y, by the map from the image to the splat as it is at its center; 0 where that can't be seen.
+    pub fn change_of_filtered_r2(&self, ray: DVec3, view: &View) -> DVec2 {
         // Small enough for what curves, and large enough for the digits.
         let step_px = 1.0 / 64.0;
         let step = |x: DVec2| (step_px / view.focal_px * x).extend(0.0);
@@ -67,10 +102,10 @@ impl DrawnSplat {
                 let (here, after, before) =
                     (seen(ray)?, seen(at_center + step(x))?, seen(at_center - step(x))?);
                 let change = (self.uv(after) - self.uv(before)) / (2.0 * step_px);
-                Some(2.0 * self.uv(here).dot(change) * here.z / self.center.z)
+                Some(2.0 * self.filtered(self.uv(here)).dot(self.filtered(change)) * here.z / self.center.z)
             }
             _ => {
-                let r2 = |ray: DVec3| Some(self.hit(ray, view.near)?.r2);
+                let r2 = |ray: DVec3| Some(self.hit(ray, view.near)?.r2());
                 Some((r2(ray + step(x))? - r2(ray - step(x))?) / (2.0 * step_px))
             }
         };
@@ -81,7 +116,7 @@ impl DrawnSplat {
     /// it.
     fn plane_hit(&self, ray: DVec3, near: f64) -> Option<Hit> {
         let z = self.plane_depth(ray, near)?;
-        Some(Hit { z, r2: self.uv(z * ray).length_squared() })
+        Some(Hit { z, uv: self.uv(z * ray) })
     }
 
     /// u and v of a point of its plane.

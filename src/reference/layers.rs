@@ -22,9 +22,11 @@ pub(super) struct Translucent {
     pub z_shifted: f64,
     /// 1 for a polygon.
     pub weight: f64,
-    /// Of a splat, the kernel's value, and the squared radius.
+    /// Of a splat, the kernel's value, and the squared radius in what the filter makes of it.
     pub kernel: f64,
     pub r2: f64,
+    /// u and v, as far as it reaches.
+    pub uv: DVec2,
     /// By how much that value falls a pixel along x and y.
     pub fall: DVec2,
     /// What it covers as no filter has widened it.

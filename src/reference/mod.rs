@@ -34,6 +34,7 @@
 mod affine;
 mod band;
 mod bands;
+mod borders;
 mod clip;
 mod covering;
 mod creases;
@@ -62,6 +63,7 @@ mod pick;
 mod picture;
 mod planes;
 mod polygons;
+mod reach;
 mod row_span;
 mod samples;
 mod search_box;

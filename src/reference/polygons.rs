@@ -128,6 +128,7 @@ pub(super) fn collect(
                     weight: 1.0,
                     kernel: 1.0,
                     r2: 0.0,
+                    uv: DVec2::ZERO,
                     fall: DVec2::ZERO,
                     outlined: 0.0,
                     kept: None,

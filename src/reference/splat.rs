@@ -2,19 +2,19 @@
 //!
 //! This file, `ewa`, `intersect`, `fragment` and `surface` name each other, as the papers' sections do: all tell of a splat.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::affine::ImageEllipse;
+use super::borders::at_border;
 use super::covering::{Covering, covers_in_part, left_out};
 use super::drawn_clip::DrawnClip;
 use super::epsilon::{EpsilonRule, polygon_reach};
-use super::ewa::Stretched;
-use super::filter::{adjust, area_share, lengthened, minor_axis, orthogonalized, projected};
+use super::filter::{adjust, area_share, lengthened, minor_axis, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
 use super::near_surfaces::{Bend, bends};
 use super::overlap::{SharpSplat, evened, overlaps};
 use super::paper_filter::adjust_paper;
+use super::reach::Reach;
 use super::surface::Attributes;
 use super::tangents::tangents;
 use super::view::View;
@@ -65,6 +65,8 @@ pub(super) struct DrawnSplat {
     pub least_weight: f64,
     /// The low-pass filter beside it, for [`Filter::Max`].
     pub low_pass: Option<LowPass>,
+    /// By how much it reaches further than what the filter makes of it, of which `s` and `t`, `u` and `v` tell then.
+    pub reach: Option<Reach>,
     /// What is cut off it.
     pub clip: Option<DrawnClip>,
     /// The square to which it is cut, for [`Rasterizer::RaycastApproximate`].
@@ -114,6 +116,10 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
         });
         let is_sharp = overlaps.is_some() && !object.splats.clips.is_empty();
         let bends = is_sharp.then(|| bends(&object.splats));
+        // Of a surface alone, opaque, with nothing cut off.
+        let is_whole = opacity == Opacity::Opaque && !is_sharp && scene.meshes.is_empty();
+        let may_reach = overlaps.is_some() && settings.filter == Filter::Adjust && is_whole;
+        let at_border = may_reach.then(|| at_border(&object.splats));
         let rule = EpsilonRule::of(scene, number, settings, opacity);
         let left_out = left_out(scene, opacity);
         for i in 0..object.splats.len() {
@@ -125,7 +131,7 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
                 let splat = prepare_one(
                     object,
                     i,
-                    (cull, opacity, overlap, left_out),
+                    (cull, opacity, overlap, left_out, at_border.as_ref().is_some_and(|at| at[i])),
                     (&rule, reach),
                     view,
                     settings,
@@ -147,11 +153,14 @@ pub(super) fn culls((settings, is_cut_open): (&Settings, bool), closed: bool, op
     }
 }
 
+/// The overlap of a splat, and, of a sharp surface, how it bends there.
+type Overlap = Option<(f64, Option<Bend>)>;
+
 /// `None` where the splat faces away and is culled.
 fn prepare_one(
     object: &Object,
     i: usize,
-    (cull, opacity, overlap, left_out): (bool, Opacity, Option<(f64, Option<Bend>)>, f64),
+    (cull, opacity, overlap, left_out, at_border): (bool, Opacity, Overlap, f64, bool),
     (rule, polygon_reach): (&EpsilonRule, f64),
     view: &View,
     settings: &Settings,
@@ -199,7 +208,7 @@ fn prepare_one(
         _ => original,
     };
 
-    let map = if regular { map(center, s, t, h, settings) } else { Map::Projective };
+    let map = if regular { Map::of(center, s, t, h, settings) } else { Map::Projective };
     let share = match &map {
         Map::Stretched(stretched) => stretched.share,
         _ if in_front && settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area => {
@@ -239,6 +248,13 @@ fn prepare_one(
     let square = (in_front && settings.rasterizer == Rasterizer::RaycastApproximate)
         .then(|| Square::around(center, s, t, low_pass.as_ref()));
 
+    let reach = match at_border && regular {
+        true => Reach::of(center, original, (s, t), h, view.near),
+        false => None,
+    };
+    let by = reach.map_or(DVec2::ONE, |reach| reach.over_filtered);
+    let (s, t) = (by.x * s, by.y * t);
+
     let filtered = regular && (settings.filter.adjusts() || settings.filter == Filter::Ewa);
     let plane_normal = s.cross(t).normalize();
     let (u_direction, v_direction) = (t.cross(plane_normal), plane_normal.cross(s));
@@ -268,30 +284,13 @@ fn prepare_one(
             goes_on: sharp.filter(|_| !is_layered).map_or(0.0, |sharp| sharp.goes_on()),
             left_out,
             in_layers: opacity == Opacity::Transparent,
+            reach,
         }),
         least_weight: settings.floors().weight,
         low_pass,
+        reach,
         clip: DrawnClip::of(splats.clips.get(i), center, original, overlap.map(|_| h), filtered),
         square,
         minor_px: (!reaches_near).then_some(view.focal_px * minor),
     })
-}
-
-/// The map of a regular splat with the tangent vectors that are drawn. All rasterizers but the affine ones draw the
-/// same picture.
-fn map(center: DVec3, s: DVec3, t: DVec3, h: f64, settings: &Settings) -> Map {
-    let least = settings.floors().share;
-    match (settings.filter, settings.rasterizer) {
-        (Filter::Ewa, Rasterizer::AffineContour) => {
-            Map::Stretched(Stretched::of_contour(center, s, t, h, least))
-        }
-        // The filter brings its own map.
-        (Filter::Ewa, _) => Map::Stretched(Stretched::at_center(center, s, t, h, least)),
-        (_, Rasterizer::AffineContour) => Map::Affine(ImageEllipse::exact_contour(center, s, t)),
-        (_, Rasterizer::AffineCenter) => {
-            let (s, t) = orthogonalized(center, s, t);
-            Map::Affine(ImageEllipse::exact_at_center(center, s, t))
-        }
-        _ => Map::Projective,
-    }
 }

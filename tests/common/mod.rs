@@ -7,6 +7,7 @@ pub mod cases;
 pub mod faults;
 pub mod host;
 mod oracles;
+pub mod sheets;
 pub mod watched;
 
 use std::{

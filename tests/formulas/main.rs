@@ -15,7 +15,7 @@ use glam::DVec3;
 use common::{
     ALL, PICTURE, oracle_of, passes, render_as,
     scenes::{self, Hard, transparent},
-    shared, with, with_points_up_to,
+    shared, sheets, with, with_points_up_to,
 };
 use surfel::{
     load::builtin::checkerboard,
@@ -171,6 +171,14 @@ fn every_formula_of_edges_is_seen() {
         (settings.edges, settings.rasterizer) = (Edges::Coverage, Rasterizer::Compute);
     });
     assert_seen(&mut shared(), &with_oracles([ball]), &Formula::OF_EDGES, &|headless, hard, oracle| {
+        light(&render_as(headless, hard, PICTURE), hard, oracle)
+    });
+}
+
+#[test]
+fn every_formula_of_borders_is_seen() {
+    let sheet = sheets::covering(vec![sheets::sheet(12, 0.1, DVec3::ZERO, false)]);
+    assert_seen(&mut shared(), &with_oracles([sheet]), &Formula::OF_BORDERS, &|headless, hard, oracle| {
         light(&render_as(headless, hard, PICTURE), hard, oracle)
     });
 }

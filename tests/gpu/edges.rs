@@ -241,7 +241,7 @@ fn rims_of_transparent_balls_are_of_two_sides() {
 }
 
 /// How far pictures over white are from the surface itself: RMS of the pixels where it ends, and of all.
-fn against_the_truth(headless: &mut Headless, hard: &Hard) -> [f64; 2] {
+pub(crate) fn against_the_truth(headless: &mut Headless, hard: &Hard) -> [f64; 2] {
     let truth = ground_truth(&hard.scene, &hard.camera, &hard.settings, 16, &|_, _| {}).unwrap();
     let frame = render_as(headless, hard, PICTURE);
     let white = f64::from(linear_from_srgb(1.0));

@@ -6,6 +6,7 @@ mod common;
 
 mod bands;
 mod beside;
+mod borders;
 mod by_design;
 mod clipped_levels;
 mod clips;

@@ -16,7 +16,7 @@ const LEAST_SIZE: f64 = 0.5;
 const MOST_CANDIDATES: usize = 512;
 
 /// All splats that can be drawn, by cells. Octaves are sorted, and so are the cells of each.
-pub(super) struct Grids {
+pub(in crate::geometry) struct Grids {
     /// The splats, cell by cell.
     splats: Vec<u32>,
     /// Where the cells are that are not empty.
@@ -29,7 +29,7 @@ pub(super) struct Grids {
 
 /// What was found near a cell, and room for finding it.
 #[derive(Default)]
-pub(super) struct Search {
+pub(in crate::geometry) struct Search {
     near: Vec<Neighbor>,
     /// Those of one octave, by cell.
     found: Vec<Range<u32>>,
@@ -86,7 +86,7 @@ impl Grids {
     pub fn sums_on(&self, splats: &Splats, i: usize, place: DVec3, factor: impl Fn(u32) -> f64) -> [f64; 3] {
         let octave = octave_of(splats.major_radius(i));
         let mut search = Search::default();
-        self.find(splats, octave, cell_of(place, octave), &mut search);
+        self.find(splats, (octave, cell_of(place, octave)), 0, &mut search);
         sums_at(&search.near, splats, i, place, factor)
     }
 
@@ -99,12 +99,29 @@ impl Grids {
         mut tell: impl FnMut(u32, f64),
     ) {
         let octave = self.octaves.partition_point(|(_, cells)| cells.end <= cell);
-        self.find(splats, self.octaves[octave].0, self.cells[cell], search);
-        for &splat in &self.splats[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+        self.find(splats, (self.octaves[octave].0, self.cells[cell]), 0, search);
+        for &splat in self.splats_in(cell) {
             let i = splat as usize;
             let [crowd, ..] = sums_at(&search.near, splats, i, splats.positions[i], |_| 1.0);
             tell(splat, crowd.max(1.0));
         }
+    }
+
+    /// The splats of a cell.
+    pub fn splats_in(&self, cell: usize) -> &[u32] {
+        &self.splats[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+
+    /// Finds all that may touch one of the splats of a cell, and is no smaller than half of it; `None` of more than can be told apart.
+    pub fn that_touch<'s>(
+        &self,
+        splats: &Splats,
+        cell: usize,
+        search: &'s mut Search,
+    ) -> Option<impl Iterator<Item = u32> + Clone + use<'s>> {
+        let octave = self.octaves.partition_point(|(_, cells)| cells.end <= cell);
+        let all = self.find(splats, (self.octaves[octave].0, self.cells[cell]), 1, search);
+        all.then(|| search.near.iter().map(|neighbor| neighbor.splat))
     }
 
     /// The numbers of the splats, in order.
@@ -114,16 +131,24 @@ impl Grids {
         numbers
     }
 
-    /// Finds all that may reach a place in a cell of an octave, of this octave, the one below and those above.
-    fn find(&self, splats: &Splats, octave: i32, cell: [i32; 3], search: &mut Search) {
+    /// Finds all that may reach a place in a cell of an octave, of this octave, the one below and those above; or a place so many times as far beyond the cell as it is wide. False
+    /// where some were left out, for which others stand.
+    fn find(
+        &self,
+        splats: &Splats,
+        (octave, cell): (i32, [i32; 3]),
+        beyond: i32,
+        search: &mut Search,
+    ) -> bool {
         search.near.clear();
+        let mut all_found = true;
         let first = self.octaves.partition_point(|(of, _)| *of < octave - 1);
         let mut row = 0;
         for (of, cells) in &self.octaves[first..] {
             let up = (of - octave).clamp(-1, 31);
             let [lo, hi] = match up {
-                -1 => [cell.map(|x| 2 * x - 1), cell.map(|x| 2 * x + 2)],
-                _ => [cell.map(|x| (x >> up) - 1), cell.map(|x| (x >> up) + 1)],
+                -1 => [cell.map(|x| 2 * (x - beyond) - 1), cell.map(|x| 2 * (x + beyond) + 2)],
+                _ => [cell.map(|x| ((x - beyond) >> up) - 1), cell.map(|x| ((x + beyond) >> up) + 1)],
             };
             search.found.clear();
             let mut count = 0;
@@ -137,6 +162,7 @@ impl Grids {
                 row += 1;
             }
             let step = count.div_ceil(MOST_CANDIDATES).max(1);
+            all_found &= step == 1;
             let mut skip = 0;
             for range in &search.found {
                 let range = range.start as usize..range.end as usize;
@@ -149,6 +175,7 @@ impl Grids {
                 skip = (skip + range.len() * (step - 1)) % step;
             }
         }
+        all_found
     }
 }
 

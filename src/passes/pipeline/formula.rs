@@ -67,6 +67,8 @@ pub enum Formula {
     Crease,
     SharpSum,
     Outlined,
+    Reach,
+    BorderDistance,
 }
 
 impl Formula {
@@ -87,6 +89,9 @@ impl Formula {
 
     /// Those of surfaces that cover pixels in part where they end.
     pub const OF_EDGES: [Self; 2] = [Self::EdgeOpacity, Self::Share];
+
+    /// Those of splats at borders, where these cover pixels in part.
+    pub const OF_BORDERS: [Self; 2] = [Self::Reach, Self::BorderDistance];
 
     /// Those of clip curves; the last four of them where these cover pixels in part.
     pub const OF_CLIPS: [Self; 6] =

@@ -152,6 +152,14 @@ pub fn draws<'a, 's>(
         .filter_map(move |chunk| draw(arena, (placed, 0, chunk), view, settings, &variants))
 }
 
+/// As `glsl/inc/reach.glsl` has it.
+const REACH: f64 = 0.8;
+
+/// Whether splats of a chunk reach further than what a filter makes of them, if edges are covered in part.
+pub(super) fn reaches(chunk: &Chunk, settings: &Settings) -> bool {
+    chunk.has_borders && settings.covers_in_part() && settings.filter == Filter::Adjust
+}
+
 /// A chunk of a scene, which has that number among those of the frame, and is seen so; none where the scene itself is drawn and the chunk stands for its splats.
 pub(super) fn draw<'a>(
     arena: &'a Arena,
@@ -189,6 +197,10 @@ pub(super) fn draw<'a>(
             // Its two axes may have one direction: together they reach √2 times as far as one.
             Filter::AdjustPaper => std::f64::consts::SQRT_2 * filter_radius_px,
             Filter::Adjust | Filter::Max | Filter::Ewa => filter_radius_px,
+        },
+        reach_px: match reaches(chunk, settings) {
+            true => REACH * filter_radius_px,
+            false => 0.0,
         },
     };
     let of_level = levels.map_or(f64::INFINITY, |view| view.largest_drawn_px(&chunk.tree, bound.filter_px));

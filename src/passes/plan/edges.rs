@@ -2,12 +2,17 @@
 
 use crate::passes::{
     pipeline::variant::culls,
-    plan::{SplatMethod, SurfacePlan, bands::Band, draws::Draw, splat_variants::change_variants},
+    plan::{
+        SplatMethod, SurfacePlan,
+        bands::Band,
+        draws::{Draw, reaches},
+        splat_variants::change_variants,
+    },
 };
 use crate::{
     arena::Arena,
     scene::Edges,
-    shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_SHARP, SPEC_TWO_SIDED},
+    shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_REACHES, SPEC_SHARP, SPEC_TWO_SIDED},
     vk::Limits,
 };
 
@@ -28,6 +33,8 @@ impl<'a> SurfacePlan<'a> {
             return;
         }
         let two_sided = coverage && self.splats.iter().any(|draw| !culls(draw.variant));
+        let reaches =
+            coverage && !transparent && self.splats.iter().any(|draw| reaches(draw.chunk, &self.settings));
         let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());
         let samples_polygons = !self.meshes.is_empty()
             && self.settings.samples.0 == 1
@@ -36,11 +43,11 @@ impl<'a> SurfacePlan<'a> {
         let SplatMethod::Tiles(bands) = &mut self.method else { return };
         let of_band = |band: &Band<'a>| {
             let splats = match coverage {
-                true => with_edges(arena, band.splats, two_sided, transparent),
+                true => with_edges(arena, band.splats, (two_sided, reaches), transparent),
                 false => band.splats,
             };
             let plan = match lights {
-                None => band.plan.clone().with_edges(two_sided, blended, samples_polygons),
+                None => band.plan.clone().with_edges((two_sided, reaches), blended, samples_polygons),
                 Some(lights) => band.plan.clone().with_layers(most_layers, lights, two_sided),
             };
             Band { splats, plan, ..*band }
@@ -56,13 +63,14 @@ const NOT_IN_PART: &str = "edges are hard, since some splats are too large, or t
 fn with_edges<'a>(
     arena: &'a Arena,
     splats: &[Draw<'a>],
-    two_sided: bool,
+    (two_sided, reaches): (bool, bool),
     transparent: bool,
 ) -> &'a [Draw<'a>] {
     let mut splats = arena.copied(splats);
-    let is_sharp = |draw: &Draw<'_>| draw.chunk.is_sharp;
-    change_variants(arena, &mut splats, is_sharp, |variant, is_sharp| {
+    let kind = |draw: &Draw<'_>| (draw.chunk.is_sharp, reaches && draw.chunk.has_borders);
+    change_variants(arena, &mut splats, kind, |variant, (is_sharp, reaches)| {
         variant.push((SPEC_COVERAGE_EDGES, 1));
+        variant.extend(reaches.then_some((SPEC_REACHES, 1)));
         if *is_sharp {
             variant.push((SPEC_SHARP, 1));
         }

@@ -89,6 +89,8 @@ pub struct TilePlan {
     pub hidden: bool,
     /// Surfaces are told apart by the side that they show.
     pub two_sided: bool,
+    /// Some splats lie at borders, and reach further than their rims.
+    pub reaches: bool,
     /// Levels of detail blend into each other.
     pub blended: bool,
     /// Clip curves cut something off some splats.
@@ -206,6 +208,7 @@ impl TilePlan {
             overflows_somewhere: false,
             hidden: false,
             two_sided: false,
+            reaches: false,
             blended: false,
             samples_polygons: false,
             clips: false,
@@ -231,9 +234,14 @@ impl TilePlan {
     }
 
     /// The plan for what covers pixels in part where it ends: what one surface hides, the next may show.
-    /// `two_sided`: some splats that face away are drawn. `blended`: levels of detail blend into each other. `samples_polygons`: polygons beside them end so, too.
-    pub(crate) fn with_edges(self, two_sided: bool, blended: bool, samples_polygons: bool) -> Self {
-        Self { hidden: false, two_sided, blended, samples_polygons, ..self }
+    /// `two_sided`: some splats that face away are drawn. `reaches`: some lie at borders. `blended`: levels of detail blend into each other. `samples_polygons`: polygons beside them end so, too.
+    pub(crate) fn with_edges(
+        self,
+        (two_sided, reaches): (bool, bool),
+        blended: bool,
+        samples_polygons: bool,
+    ) -> Self {
+        Self { hidden: false, two_sided, reaches, blended, samples_polygons, ..self }
     }
 
     /// The bins of all lists: of tiles, then of chunks.

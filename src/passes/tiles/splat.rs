@@ -63,7 +63,7 @@ impl TileImages {
         images
     }
 
-    /// Images of as many overflow tiles as there may be. Where `edges` are covered in part, what covers pixels is below their colors.
+    /// Images of as many overflow tiles as there may be. Where `edges` are covered in part, what covers pixels is below their colors, and below that what splats at borders do.
     pub fn of_overflow<'a>(
         graph: &mut Graph<'a, Body<'a>>,
         kind: &str,
@@ -71,7 +71,11 @@ impl TileImages {
         edges: Edges,
     ) -> Self {
         let extent = extent_of_slots(plan.most_overflow() as u32, plan.tile_px());
-        let of_colors = if edges == Edges::Coverage { 2 * extent.height } else { extent.height };
+        let of_colors = match edges {
+            Edges::Coverage if plan.reaches => 3 * extent.height,
+            Edges::Coverage => 2 * extent.height,
+            Edges::Hard => extent.height,
+        };
         let mut image = |what, format, height| {
             let extent = vk::Extent2D { height, ..extent };
             graph.create_image(format_args!("{what} of {kind}overflow tiles"), ImageDesc { format, extent })
@@ -139,6 +143,7 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
         let filter_px = settings.samples.filter_radius_px() as f32;
         constants.extend([(SPEC_COVERAGE_EDGES, 1), (SPEC_FILTER_PX, filter_px.to_bits())]);
         constants.extend(plan.two_sided.then_some((SPEC_TWO_SIDED, 1)));
+        constants.extend(plan.reaches.then_some((SPEC_REACHES, 1)));
         constants.extend(plan.blended.then_some((SPEC_BLENDED, 1)));
     }
     constants

@@ -36,7 +36,10 @@ fn a_splat_parallel_to_the_screen_is_the_same_under_every_map() {
         for step in 0..100 {
             let ray = view.ray(step * 7 % 64, step * 11 % 64);
             let (a, b) = (affine.hit(ray, view.near).unwrap(), exact.hit(ray, view.near).unwrap());
-            assert!((a.r2 - b.r2).abs() < 1e-13 * b.r2.max(1.0) && a.z == b.z, "{rasterizer:?}: {a:?} {b:?}");
+            assert!(
+                (a.r2() - b.r2()).abs() < 1e-13 * b.r2().max(1.0) && a.z == b.z,
+                "{rasterizer:?}: {a:?} {b:?}"
+            );
         }
     }
 }

@@ -59,13 +59,13 @@ fn the_rim_follows_the_squares_border_where_the_splat_covers() {
         splat.rim(ray, 20.0, 1.0, &view).is_some()
     };
     // The nearer side of the splat reaches over the right border.
-    assert!(splat.hit(DVec3::new(0.3 + half_side, 0.1, 1.0), view.near).unwrap().r2 < 0.9);
+    assert!(splat.hit(DVec3::new(0.3 + half_side, 0.1, 1.0), view.near).unwrap().r2() < 0.9);
     assert!(rim(0.9e-3, 0.1) && rim(-0.9e-3, 0.1));
     assert!(!rim(1.2e-3, 0.1) && !rim(-1.2e-3, 0.1));
     // Its own rim beyond the square is cut off with the rest.
     let end = tilted().0 + tilted().1.as_dvec3();
     let end = end / end.z;
-    assert!((splat.hit(end, view.near).unwrap().r2 - 1.0).abs() < 1e-12);
+    assert!((splat.hit(end, view.near).unwrap().r2() - 1.0).abs() < 1e-12);
     assert!(splat.rim(end, 20.0, 1.0, &view).is_none());
     // Above the splat there is nothing to cut off.
     assert!(!rim(0.0, 0.9));

@@ -158,7 +158,7 @@ fn an_edge_on_splat_is_drawn_as_wide_as_the_filter() {
         let splat = drawn((DVec3::Z, Vec3::new(0.5, 0.0, 0.25), Vec3::Z * 0.5, GRAY), &ewa(rasterizer)).0;
         let half = 0.5 * (0.5_f64.powi(2) + 2.0 * pixel * pixel).sqrt();
         let hit = splat.hit(DVec3::new(half, 0.0, 1.0), view.near).unwrap();
-        assert!((hit.r2 - 0.25).abs() < 1e-12);
+        assert!((hit.r2() - 0.25).abs() < 1e-12);
         // Rows at half a pixel to each side: r² = ⅛ + (x/16.06)² in 15.0 of 16 pixels.
         assert_eq!(covered(&picture(&ellipses(&[edge_on]), &ewa(rasterizer))), 60);
     }
@@ -174,7 +174,7 @@ fn a_large_splat_keeps_weight_and_shape_and_a_small_one_the_least_share() {
     for column in [0, 20, 50] {
         let ray = view.ray(column, 9);
         let (a, b) = (splat.hit(ray, view.near).unwrap(), plain.hit(ray, view.near).unwrap());
-        assert!((a.r2 / b.r2 - 1.0).abs() < 6e-6 && (a.z - b.z).abs() < 1e-15);
+        assert!((a.r2() / b.r2() - 1.0).abs() < 6e-6 && (a.z - b.z).abs() < 1e-15);
     }
     let (small, _) = drawn(facing_disk(DVec3::Z, 1e-6, GRAY), &ewa(CENTER));
     let least = ewa(CENTER).floors().share;

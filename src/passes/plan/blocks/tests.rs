@@ -98,6 +98,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             size_px: SIZE_PX.map(f64::from),
             middle_px: camera.middle_px(SIZE_PX),
             filter_px: std::f64::consts::SQRT_2,
+            reach_px: 0.0,
         };
         let look = BlockCullView {
             view: &view,
