@@ -2,7 +2,7 @@
 //!
 //! A splat is at a border where at three places in a row, of 32 around its rim, there is no other splat of the surface, nor the center of one that touches it within 60° of that way. Of the surface are
 //! those whose normals are within 45° of its own, and that are no smaller than half of it. What has fewer such splats than there are along half of the outline of a square of as
-//! many has gaps here and there, and no border: it has none of them.
+//! many has gaps here and there, and no border: it has none of them. Nor has what is of more than 100 thousand splats.
 
 use std::{
     f64::consts::TAU,
@@ -36,45 +36,35 @@ const TOWARD: f64 = 0.49;
 /// A place is on a splat up to this squared radius: more than 1, which a regular grid has at its crossings.
 const ON_SPLAT: f64 = 1.0 + 1e-6;
 
-/// Of so many splats and more,
-const LARGE: f64 = 100_000.0;
-
-/// one in so many cells is looked at first.
-const SAMPLED: usize = 16;
+/// Of more splats nobody looks for borders: they are about as small as pixels, whose sums tell what they cover, and it would take time and memory.
+const MOST: usize = 100_000;
 
 /// Cosine and sine of the way to each place.
 type Ways = [[f64; 2]; PLACES];
 
 /// Whether each splat is at a border; `None` where none is. A splat that can't be drawn is not.
 pub(crate) fn at_border(splats: &Splats) -> Option<Vec<bool>> {
+    if splats.len() > MOST {
+        return None;
+    }
     let grids = Grids::new(splats);
     let ways: Ways = std::array::from_fn(|place| (TAU * place as f64 / PLACES as f64).sin_cos())
         .map(|(sin, cos)| [cos, sin]);
     let found: Vec<AtomicBool> = (0..splats.len()).map(|_| AtomicBool::new(false)).collect();
-    // The splats of every so many cells, from one on.
-    let look = |first: usize, step: usize| {
-        (0..grids.len().div_ceil(CELLS_AT_ONCE)).into_par_iter().for_each(|task| {
-            let mut search = Search::default();
-            let cells = task * CELLS_AT_ONCE..grids.len().min((task + 1) * CELLS_AT_ONCE);
-            for cell in cells.skip(first).step_by(step) {
-                let Some(near) = grids.that_touch(splats, cell, &mut search) else { continue };
-                for &splat in grids.splats_in(cell) {
-                    if is_at_border(splats, splat as usize, &ways, near.clone()) {
-                        found[splat as usize].store(true, Ordering::Relaxed);
-                    }
+    (0..grids.len().div_ceil(CELLS_AT_ONCE)).into_par_iter().for_each(|task| {
+        let mut search = Search::default();
+        for cell in task * CELLS_AT_ONCE..grids.len().min((task + 1) * CELLS_AT_ONCE) {
+            let Some(near) = grids.that_touch(splats, cell, &mut search) else { continue };
+            for &splat in grids.splats_in(cell) {
+                if is_at_border(splats, splat as usize, &ways, near.clone()) {
+                    found[splat as usize].store(true, Ordering::Relaxed);
                 }
             }
-        });
-        found.iter().filter(|at| at.load(Ordering::Relaxed)).count() as f64
-    };
-    let drawn = grids.numbers().len() as f64;
-    let least = 2.0 * drawn.sqrt();
-    // Most large surfaces have none, which a part of the cells tells: it has not a quarter of its share of just enough.
-    if drawn >= LARGE && 4.0 * SAMPLED as f64 * look(0, SAMPLED) < least {
-        return None;
-    }
-    let count = look(0, 1);
-    (count > 0.0 && count >= least).then(|| found.into_iter().map(AtomicBool::into_inner).collect())
+        }
+    });
+    let found: Vec<bool> = found.into_iter().map(AtomicBool::into_inner).collect();
+    let count = found.iter().filter(|at| **at).count() as f64;
+    (count > 0.0 && count >= 2.0 * (grids.numbers().len() as f64).sqrt()).then_some(found)
 }
 
 /// `near`: all that may touch it, itself among them.

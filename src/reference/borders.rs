@@ -19,8 +19,11 @@ struct Among {
 
 /// Of each splat whether at three places in a row, of 32 of its rim that are evenly around in angle, there is no other splat, and no center of another that touches it lies that way, within the angle of cosine
 /// 0.49. Others count that are no smaller than half of it, with normals whose cosine to its own is at least 0.7. Places begin in the way of the first of the axes x, y and z whose
-/// cosine to the normal is below 0.59. None is at a border where there are fewer than 2√n of n in all.
+/// cosine to the normal is below 0.59. None is at a border where there are fewer than 2√n of n in all, nor of more than 100 thousand splats.
 pub(super) fn at_border(splats: &Splats) -> Vec<bool> {
+    if splats.len() > 100_000 {
+        return vec![false; splats.len()];
+    }
     let mut all: Vec<Among> = (0..splats.len())
         .filter(|&i| splats.defect(i).is_none())
         .map(|i| {

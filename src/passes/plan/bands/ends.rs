@@ -76,6 +76,7 @@ mod tests {
 
     use super::*;
     use crate::{
+        math::random::SplitMix,
         passes::plan::{FramePlan, bands::most_bytes, tiles::rows::Drawn},
         prepare::{Placed, prepare_without_device},
         scene::{Camera, Colors, Object, Rasterizer, Scene, Settings, Shapes, Splats, TileMemory},
@@ -86,13 +87,15 @@ mod tests {
     #[test]
     fn bands_are_few_and_alike_and_blocks_are_looked_at_where_they_end() {
         const COUNT: usize = 300_000;
-        // In a spiral, as even as they may be: splats beside a gap would reach further.
-        let place = |i: usize| {
-            let (z, turn) = (1.0 - (2 * i + 1) as f64 / COUNT as f64, i as f64 * 2.399_963_229_728_653);
-            let across = (1.0 - z * z).sqrt();
-            DVec3::new(across * turn.cos(), across * turn.sin(), z)
+        let mut random = SplitMix(5);
+        let mut side = || 2.0 * random.unit() - 1.0;
+        let mut normal = || loop {
+            let v = DVec3::new(side(), side(), side());
+            if (0.1..1.0).contains(&v.length()) {
+                return v.normalize();
+            }
         };
-        let positions: Vec<_> = (0..COUNT).map(place).collect();
+        let positions: Vec<_> = (0..COUNT).map(|_| normal()).collect();
         let normals: Vec<Vec3> = positions.iter().map(|at: &DVec3| at.as_vec3()).collect();
         let shapes = Shapes::Disks { normals, radii: vec![0.006; COUNT] };
         let splats = Splats::new(positions, shapes, Colors::Uniform([1.0; 4]));
