@@ -4,18 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::tangents::tangents;
+use super::among::{Among, all_along_x};
 use crate::scene::Splats;
-
-/// A splat among others.
-struct Among {
-    number: usize,
-    center: DVec3,
-    s: DVec3,
-    t: DVec3,
-    normal: DVec3,
-    radius: f64,
-}
 
 /// Of each splat whether at three places in a row, of 32 of its rim that are evenly around in angle, there is no other splat, and no center of another that touches it lies that way, within the angle of cosine
 /// 0.49. Others count that are no smaller than half of it, with normals whose cosine to its own is at least 0.7. Places begin in the way of the first of the axes x, y and z whose
@@ -24,17 +14,7 @@ pub(super) fn at_border(splats: &Splats) -> Vec<bool> {
     if splats.len() > 100_000 {
         return vec![false; splats.len()];
     }
-    let mut all: Vec<Among> = (0..splats.len())
-        .filter(|&i| splats.defect(i).is_none())
-        .map(|i| {
-            let (s, t) = tangents(&splats.shapes, i);
-            let normal = s.normalize().cross(t.normalize()).normalize();
-            let (center, radius) = (splats.positions[i], splats.major_radius(i));
-            Among { number: i, center, s, t, normal, radius }
-        })
-        .collect();
-    // Along x, so that only a slab of them is looked at.
-    all.sort_by(|a, b| a.center.x.total_cmp(&b.center.x));
+    let all = all_along_x(splats);
     let largest = all.iter().map(|splat| splat.radius).fold(0.0, f64::max);
     let mut found = vec![false; splats.len()];
     for of in &all {
@@ -49,14 +29,14 @@ pub(super) fn at_border(splats: &Splats) -> Vec<bool> {
         };
         let touching: Vec<&Among> = slab.filter(counts).collect();
         let axis = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().find(|axis| axis.dot(of.normal).abs() < 0.59);
-        let axis = axis.expect("no normal has three components that large");
+        // No normal has three components that large.
+        let axis = axis.unwrap_or(DVec3::X);
         let right = (axis - axis.dot(of.normal) * of.normal).normalize();
         let up = of.normal.cross(right);
         let is_empty = |place: usize| {
             let (sin, cos) = (TAU * place as f64 / 32.0).sin_cos();
             let way = cos * right + sin * up;
-            let (u, v) = uv(of, way);
-            let rim = of.center + way / u.hypot(v);
+            let rim = of.center + way / of.seen_at(of.center + way).length();
             !touching.iter().any(|other| is_on(other, rim) || lies_toward(of, way, other))
         };
         let empty: Vec<bool> = (0..34).map(|place| is_empty(place % 32)).collect();
@@ -66,20 +46,11 @@ pub(super) fn at_border(splats: &Splats) -> Vec<bool> {
     if count >= 2.0 * (all.len() as f64).sqrt() { found } else { vec![false; splats.len()] }
 }
 
-/// (u, v) of a place counted from a splat's center, seen along its normal.
-fn uv(splat: &Among, from_center: DVec3) -> (f64, f64) {
-    let area = splat.s.cross(splat.t).dot(splat.normal);
-    let u = from_center.cross(splat.t).dot(splat.normal) / area;
-    let v = splat.s.cross(from_center).dot(splat.normal) / area;
-    (u, v)
-}
-
 /// A millionth beyond its rim is on a splat, too: rims of regular grids cross at places.
 fn is_on(splat: &Among, place: DVec3) -> bool {
-    let from_center = place - splat.center;
-    let (u, v) = uv(splat, from_center);
     let most = 1.0 + 1e-6;
-    from_center.length_squared() <= most * splat.radius.powi(2) && u * u + v * v <= most
+    place.distance_squared(splat.center) <= most * splat.radius.powi(2)
+        && splat.seen_at(place).length_squared() <= most
 }
 
 fn lies_toward(of: &Among, way: DVec3, other: &Among) -> bool {

@@ -32,6 +32,7 @@
 //! it says. Eye-dome lighting is a step behind all others (`eye_dome`). Not modelled, because they are to change nothing: [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`crate::scene::TileInvocations`].
 
 mod affine;
+mod among;
 mod band;
 mod bands;
 mod borders;

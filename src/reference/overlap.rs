@@ -5,13 +5,14 @@
 //! crowd times that mean. Of a rough surface it is less: its roughness is ⟨m²⟩ / √⟨h²⟩, over those places, with h the height above each disk there, by their weights, and m the mean height of the splat's center above
 //! the disks at it, both over the splat's own size; from 0.04 on, to 0.08, the mean sum is divided by up to one and a half. Not where a curve cuts any.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
+use super::among::{Among, all_along_x};
 use super::clip::removes;
 use super::covering::smooth_step;
 use super::kernel::{limit_r2, weight};
 use super::tangents::tangents;
-use crate::scene::{Clip, ClipTest, Kernel, Splats};
+use crate::scene::{ClipTest, Kernel, Splats};
 
 /// The most places.
 const PLACES: usize = 1024;
@@ -21,17 +22,6 @@ const KERNEL: Kernel = Kernel::Gaussian { sigma: 0.5 };
 
 /// The least overlap under another kernel, as a share of that under [`KERNEL`].
 const LEAST: f64 = 0.25;
-
-/// A splat among others.
-struct Among {
-    number: usize,
-    center: DVec3,
-    s: DVec3,
-    t: DVec3,
-    normal: DVec3,
-    radius: f64,
-    clip: Clip,
-}
 
 /// The overlap of the surface at each splat of an object under a kernel; 1 of what can't be drawn.
 pub(super) fn overlaps(splats: &Splats, kernel: Kernel) -> Vec<f64> {
@@ -130,35 +120,14 @@ impl SharpSplat {
     }
 }
 
-fn all_along_x(splats: &Splats) -> Vec<Among> {
-    let drawn = (0..splats.len()).filter(|&i| splats.defect(i).is_none());
-    let mut all: Vec<Among> = drawn
-        .map(|number| {
-            let (s, t) = tangents(&splats.shapes, number);
-            let normal = s.normalize().cross(t.normalize()).normalize();
-            let (center, radius) = (splats.positions[number], splats.major_radius(number));
-            Among { number, center, s, t, normal, radius, clip: splats.clips.get(number) }
-        })
-        .collect();
-    all.sort_by(|a, b| a.center.x.total_cmp(&b.center.x));
-    all
-}
-
-/// (u, v) of a place, seen along the normal: q = u s + v t + h n, solved by Cramer's rule.
-fn seen_at(splat: &Among, place: DVec3) -> DVec2 {
-    let q = place - splat.center;
-    let volume = splat.s.cross(splat.t).dot(splat.normal);
-    DVec2::new(q.cross(splat.t).dot(splat.normal), splat.s.cross(q).dot(splat.normal)) / volume
-}
-
 /// Whether the splat's own clip removes a place.
 fn is_cut_off(splat: &Among, place: DVec3) -> bool {
-    removes(&splat.clip, seen_at(splat, place), ClipTest::Conic)
+    removes(&splat.clip, splat.seen_at(place), ClipTest::Conic)
 }
 
 /// What a splat weighs at a place of another one.
 fn weight_at(splat: &Among, of: &Among, place: DVec3) -> f64 {
-    let r2 = seen_at(splat, place).length_squared();
+    let r2 = splat.seen_at(place).length_squared();
     let is_there = r2 <= 1.0 && place.distance(splat.center) <= splat.radius && !is_cut_off(splat, place);
     let counts = splat.radius >= 0.5 * of.radius && splat.normal.dot(of.normal) > 0.0;
     if is_there && counts { weight(KERNEL, r2) } else { 0.0 }
