@@ -1,6 +1,10 @@
 //! What an invocation draws of a tile, and how it comes by the tile's splats.
 
-use crate::{scene::TileInvocations, shaders::Shader, vk::Limits};
+use crate::{
+    scene::{Edges, TileInvocations},
+    shaders::Shader,
+    vk::Limits,
+};
 
 /// Texels of a buffer below which lists are rather read as words: Vulkan promises 65536. Where there are more entries than texels,
 /// large splats are left to the graphics pipeline.
@@ -17,21 +21,27 @@ pub enum Invocations {
     Pixels,
 }
 
-/// Pixels below which the mean of splats' boxes is where tiles are half as high, and up to which all of them are. Such splats cover
-/// less of a tile's pixels, all of which are computed; larger ones lie in so many tiles more that lists take what that gains, and their
-/// memory.
-const SMALL_BELOW_PX: f64 = 13.0;
+/// Pixels below which the mean of splats' boxes is where tiles are half as high. Such splats cover less of a tile's pixels, all of which are computed; larger ones lie in so many tiles more that
+/// lists take what that gains, and their memory. Where edges cover pixels in part a pixel takes longer, and its splats' boxes are wider.
+fn small_below_px(edges: Edges) -> f64 {
+    match edges {
+        Edges::Hard => 13.0,
+        Edges::Coverage => 24.0,
+    }
+}
+
+/// Up to so many pixels all of them are then.
 const LARGEST_SMALL_PX: f64 = 32.0;
 
 /// Whether splats with such boxes, how many with how many pixels along a side at most, are small for a tile.
-pub(crate) fn are_small(boxes: impl Iterator<Item = (u32, f64)>) -> bool {
+pub(crate) fn are_small(boxes: impl Iterator<Item = (u32, f64)>, edges: Edges) -> bool {
     let (mut count, mut sum_px, mut largest_px) = (0.0, 0.0, 0.0_f64);
     for (more, px) in boxes {
         count += f64::from(more);
         sum_px += f64::from(more) * px;
         largest_px = largest_px.max(px);
     }
-    sum_px < SMALL_BELOW_PX * count && largest_px <= LARGEST_SMALL_PX
+    sum_px < small_below_px(edges) * count && largest_px <= LARGEST_SMALL_PX
 }
 
 impl Invocations {
@@ -130,13 +140,13 @@ mod tests {
 
     #[test]
     fn splats_are_small_where_most_are_and_none_is_large() {
-        assert!(are_small([(1000, 11.0), (10, 32.0)].into_iter()));
-        assert!(!are_small([(1000, 14.0)].into_iter()) && !are_small([(1000, 5.0), (1, 33.0)].into_iter()));
-        // Such as no box bounds, and none at all.
-        assert!(
-            !are_small([(1000, 5.0), (1, f64::INFINITY)].into_iter())
-                && !are_small([(1000, f64::NAN)].into_iter())
-        );
-        assert!(!are_small([].into_iter()));
+        for (edges, small_px, large_px) in [(Edges::Hard, 11.0, 14.0), (Edges::Coverage, 22.0, 25.0)] {
+            let small = |boxes: &[(u32, f64)]| are_small(boxes.iter().copied(), edges);
+            assert!(small(&[(1000, small_px), (10, 32.0)]));
+            assert!(!small(&[(1000, large_px)]) && !small(&[(1000, 5.0), (1, 33.0)]));
+            // Such as no box bounds, and none at all.
+            assert!(!small(&[(1000, 5.0), (1, f64::INFINITY)]) && !small(&[(1000, f64::NAN)]));
+            assert!(!small(&[]));
+        }
     }
 }

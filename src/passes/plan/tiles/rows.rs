@@ -110,7 +110,7 @@ impl TilePlan {
         limits: &Limits,
     ) -> Option<Self> {
         // By all that is drawn, so that all bands have the same.
-        let small = are_small(all.iter().copied());
+        let small = are_small(all.iter().copied(), settings.edges);
         let invocations = Invocations::of(settings.tile_invocations, limits, small);
         let area = (settings.size_px, rows);
         let of = |invocations| Self::of_boxes(draws.len(), boxes.clone(), area.clone(), limits, invocations);
