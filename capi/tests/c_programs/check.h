@@ -61,7 +61,15 @@ static inline void draw_behind(Engine *engine, SurfelDevice *device, SurfelView 
     OK(surfel_device_epoch_done(device, epoch));
 }
 
-/* The same, of a frame alone. */
+/* The same; how many pixels are not as the first one is, which nothing covers. */
+static inline int seen(Engine *engine, SurfelDevice *device, SurfelView *view, SurfelFrame *frame) {
+    draw_behind(engine, device, view, frame);
+    int count = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) count += memcmp(engine->pixels + 4 * i, engine->pixels, 16) != 0;
+    return count;
+}
+
+/* Draws a frame alone, submits, and waits. */
 static inline void draw_alone(Engine *engine, SurfelDevice *device, SurfelView *view, const SurfelFrame *frame) {
     engine_begin(engine);
     draw_behind(engine, device, view, frame);

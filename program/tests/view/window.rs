@@ -1,8 +1,11 @@
 //! The program with its window, and beside it.
 
+mod folder;
+
+pub use folder::Folder;
+
 use std::{
-    fs,
-    path::PathBuf,
+    path::Path,
     process::{Child, ChildStdin, Command, Stdio},
     sync::{Arc, Mutex},
     thread::{self, JoinHandle},
@@ -16,47 +19,6 @@ use super::{
 
 /// Patience with a machine that does other things, too.
 const PATIENCE: Duration = Duration::from_secs(60);
-
-/// A folder that goes away with its content.
-pub struct Folder(temp_dir::TempDir);
-
-impl Folder {
-    pub fn new() -> Self {
-        Self(temp_dir::TempDir::new().unwrap())
-    }
-
-    pub fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    pub fn write(&self, name: &str, content: &str) {
-        fs::write(self.path(name), content).unwrap();
-    }
-
-    /// So many disks in colors on a ball, replaced at once.
-    pub fn splats(&self, name: &str, count: u32) {
-        let properties =
-            ["x", "y", "z", "nx", "ny", "nz", "radius"].map(|name| format!("property float {name}\n"));
-        let colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-        let lines: String = (0..count)
-            .map(|i| {
-                let z = 1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(count);
-                let (sin, cos) = (2.399_963 * f64::from(i)).sin_cos();
-                let ring = (1.0 - z * z).sqrt();
-                let (x, y) = (ring * cos, ring * sin);
-                let radius = 3.0 / f64::from(count).sqrt();
-                let [red, green, blue] = [37, 91, 53].map(|step| i * step % 256);
-                format!("{x} {y} {z} {x} {y} {z} {radius} {red} {green} {blue}\n")
-            })
-            .collect();
-        let text = format!(
-            "ply\nformat ascii 1.0\nelement vertex {count}\n{}{colors}end_header\n{lines}",
-            properties.concat()
-        );
-        self.write("new", &text);
-        fs::rename(self.path("new"), self.path(name)).unwrap();
-    }
-}
 
 /// How the program ended, and what it said.
 pub struct Run {
@@ -74,7 +36,7 @@ pub fn surfel(folder: &Folder, arguments: &[&str], environment: &[(&str, &str)])
 
 fn command(folder: &Folder, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_surfel"));
-    command.args(arguments).current_dir(folder.0.path()).stdin(Stdio::null());
+    command.args(arguments).current_dir(folder.root()).stdin(Stdio::null());
     command
 }
 
@@ -85,7 +47,7 @@ pub fn render(folder: &Folder, words: &[&str]) -> Shot {
     shot_of(&folder.path("rendered.png"))
 }
 
-fn shot_of(path: &std::path::Path) -> Shot {
+fn shot_of(path: &Path) -> Shot {
     let image = image::open(path).unwrap().into_rgb8();
     let size = [image.width(), image.height()];
     Shot { size, pixels: image.pixels().map(|pixel| pixel.0).collect() }

@@ -1,16 +1,19 @@
 //! Whose the surface is that is seen in a pixel, and how it has moved, against the oracle.
 
+mod truth;
+
 use glam::{
-    DMat4, DQuat, DVec3, DVec4,
+    DMat4, DQuat, DVec3,
     dcamera::rh::{proj::directx, view::look_at_mat4},
 };
 use surfel::{
     Settings,
     embed::{HostCamera, NO_ID, PassFigures, Placed, Placement, PreparedScene, ViewFrame},
     graph::execute::Profile,
-    reference::{self, Candidate, Picker},
-    scene::{DepthOfHost, Edges, Mesh, MeshObject, Object, Rasterizer, Scene, Shading},
+    reference::{self, Picker},
+    scene::{DepthOfHost, Edges, Mesh, MeshObject, Rasterizer, Scene, Shading},
 };
+use truth::{TIE, in_world, motion, owner};
 
 use super::{Beside, FORWARD, REVERSED, SIZE_PX, engine::Style};
 use crate::{
@@ -28,9 +31,6 @@ const BEHIND: [DVec3; 3] =
 
 /// The numbers that the engine gives.
 const IDS: [u32; 3] = [7, 4_000_000_000, 3];
-
-/// Within which f32 does not tell depths apart, as a part of them.
-const TIE: f64 = 1e-5;
 
 fn look(at: DVec3, clip_from_view: DMat4) -> HostCamera {
     HostCamera { view_from_world: look_at_mat4(at, DVec3::ZERO, DVec3::Y), clip_from_view, flips_y: true }
@@ -67,65 +67,6 @@ fn places() -> [[Placement; 2]; 3] {
         [turned(-0.2, 0.7, 0.5, 0.3), turned(-0.2, 0.7, 0.5, 0.3)],
         [turned(1.0, 0.6, 0.9, -1.4), turned(1.3, 0.6, 0.7, -1.2)],
     ]
-}
-
-/// The same scene as one, for the oracle.
-fn in_world(own: &Object, places: &[[Placement; 2]]) -> Scene {
-    let moved = |at: &Placement| {
-        let matrix = glam::DAffine3::from_scale_rotation_translation(
-            DVec3::splat(at.scale),
-            at.rotation,
-            at.translation,
-        );
-        Object { splats: own.splats.clone().transformed(&matrix), ..own.clone() }
-    };
-    Scene { objects: places.iter().map(|[now, _]| moved(now)).collect(), ..Scene::default() }
-}
-
-/// The object of which a pixel is: that of the splat of its surface whose depth is nearest to the mean; `None` where rounding decides, or another object's is as near.
-fn owner(all: &[Candidate], mean: f64) -> Option<usize> {
-    let surface = all.iter().map(|it| it.z_shifted).fold(f64::INFINITY, f64::min);
-    if all.iter().any(|it| (it.z / surface - 1.0).abs() < TIE && it.z_shifted != surface) {
-        return None;
-    }
-    let of_surface = all.iter().filter(|it| it.z <= surface);
-    let mut near: Vec<_> = of_surface.map(|it| ((it.z / mean).ln().abs(), it)).collect();
-    near.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    let object = near.first()?.1.splat?[0];
-    let as_near = near.iter().take_while(|(off, _)| *off < near[0].0 + TIE);
-    let decided = near.iter().all(|(_, it)| it.certain)
-        && as_near.clone().all(|(_, it)| it.splat.is_some_and(|it| it[0] == object));
-    decided.then_some(object)
-}
-
-/// Where a point is in the picture, in pixels, by the engine's own matrices.
-fn place_px(camera: &HostCamera, world: DVec3) -> [f64; 2] {
-    let clip = camera.clip_from_view * camera.view_from_world * world.extend(1.0);
-    let y = if camera.flips_y { -clip.y } else { clip.y };
-    [0.5 * (clip.x / clip.w + 1.0) * f64::from(SIZE_PX[0]), 0.5 * (y / clip.w + 1.0) * f64::from(SIZE_PX[1])]
-}
-
-/// The point of a pixel's center that has a depth of the engine's.
-fn point(camera: &HostCamera, pixel: usize, depth: f64) -> DVec3 {
-    let [x, y] = [pixel % SIZE_PX[0] as usize, pixel / SIZE_PX[0] as usize].map(|at| at as f64 + 0.5);
-    let y = 2.0 * y / f64::from(SIZE_PX[1]) - 1.0;
-    let clip =
-        DVec4::new(2.0 * x / f64::from(SIZE_PX[0]) - 1.0, if camera.flips_y { -y } else { y }, depth, 1.0);
-    let world = (camera.clip_from_view * camera.view_from_world).inverse() * clip;
-    world.truncate() / world.w
-}
-
-/// How far what is seen in a pixel at a depth has moved, in pixels.
-fn motion(
-    [now, before]: [&HostCamera; 2],
-    pixel: usize,
-    depth: f64,
-    [at, stood]: &[Placement; 2],
-) -> [f64; 2] {
-    let world = point(now, pixel, depth);
-    let was = stood.world_from_scene() * at.world_from_scene().inverse() * world.extend(1.0);
-    let ([x, y], [old_x, old_y]) = (place_px(now, world), place_px(before, was.truncate()));
-    [x - old_x, y - old_y]
 }
 
 fn placed<'a>(scene: &'a PreparedScene, places: &[[Placement; 2]]) -> Vec<Placed<'a>> {

@@ -1,19 +1,22 @@
 //! Splats that are added to an uploaded scene and taken out of it, against an upload of what is there.
 
+mod balls;
+
 use std::collections::VecDeque;
 
+use balls::{ball, joined, room, scene, some};
 use glam::{DAffine3, DVec3, dcamera::rh::view::look_at_mat4};
 use surfel::{
     Settings,
     embed::{MissingPipelines, Placed, PreparedScene, Rendering, ViewFrame},
-    scene::{Colors, Cull, Edges, Epsilon, Rasterizer, Room, Scene, Shading, Shapes, Splats},
+    scene::{Colors, Cull, Edges, Epsilon, Rasterizer, Room, Shading, Splats},
 };
 
 use super::{
     Beside, COLOR_FORMAT, REVERSED, SIZE_PX, Style,
     updates::{BEHIND, COUNT, camera},
 };
-use crate::{common::scenes, memory::ALLOCATIONS};
+use crate::memory::ALLOCATIONS;
 
 fn settings(rasterizer: Rasterizer) -> Settings {
     Settings {
@@ -23,51 +26,6 @@ fn settings(rasterizer: Rasterizer) -> Settings {
         rasterizer,
         ..Settings::default()
     }
-}
-
-/// A ball of many colors, all of this alpha.
-fn ball(center: DVec3, alpha: f32, ellipses: bool) -> Splats {
-    let mut splats = scenes::sphere(COUNT, center).splats;
-    let of = |at: &DVec3| {
-        let [r, g, b] =
-            (0.5 * (*at - center).as_vec3() + 0.5).clamp(glam::Vec3::ZERO, glam::Vec3::ONE).to_array();
-        [r, g, b, alpha]
-    };
-    splats.colors = Colors::Each(splats.positions.iter().map(of).collect());
-    if let (true, Shapes::Disks { normals, radii }) = (ellipses, &splats.shapes) {
-        let axes = |number: usize| {
-            let across = normals[number].any_orthonormal_vector();
-            [across, normals[number].cross(across)].map(|axis| radii[number] * axis)
-        };
-        let [s, t] = [0, 1].map(|axis| (0..COUNT).map(|number| axes(number)[axis]).collect());
-        splats.shapes = Shapes::Ellipses { s, t };
-    }
-    splats
-}
-
-/// Those for which this holds.
-fn some(splats: &Splats, keeps: impl Fn(usize) -> bool) -> Splats {
-    let keep: Vec<_> = (0..splats.len()).map(keeps).collect();
-    let mut some = splats.clone();
-    some.keep(&keep);
-    some
-}
-
-/// Both, the one behind the other.
-fn joined(mut one: Splats, other: &Splats) -> Splats {
-    one.append(other.clone());
-    one
-}
-
-fn scene(splats: Splats, room: Option<Room>, closed: bool) -> Scene {
-    let mut object = scenes::sphere(3, DVec3::ZERO);
-    (object.splats, object.closed) = (splats, closed);
-    let rooms = room.map_or(Vec::new(), |room| vec![Some(room)]);
-    Scene { objects: vec![object], updatable: true, rooms, ..Scene::default() }
-}
-
-fn room(splats: usize) -> Option<Room> {
-    Some(Room { splats: splats as u32, ..Room::default() })
 }
 
 /// Records something and submits it by itself.
