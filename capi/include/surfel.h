@@ -2565,10 +2565,11 @@ SurfelResult surfel_dynamic_create(const struct SurfelRenderer *renderer,
                                    struct SurfelPreparedScene **scene);
 
 /**
- * Says anew what is known of such splats, for frames that are recorded from now on: as many as there is room for, anywhere. Only `count`,
- * bounds, radius and overlap may change. No other thread may use the scene meanwhile.
+ * Says anew what is known of such splats, for frames that are recorded from now on: as many as there is room for, anywhere. `capacity`, `closed` and `transparent`
+ * stay as they were. No other thread may use the scene meanwhile.
  */
-SurfelResult surfel_dynamic_set(struct SurfelPreparedScene *scene, const struct SurfelDynamicSplats *splats);
+SurfelResult surfel_dynamic_set(struct SurfelPreparedScene *scene,
+                                const struct SurfelDynamicSplats *splats);
 
 /**
  * Tells the shape of a disk as it lies in the buffer of shapes: `shape` gets 8 numbers. `center` is counted from `origin`, `normal` is a unit vector.

@@ -1,5 +1,7 @@
 //! Arrays of C's.
 
+use std::mem::take;
+
 use surfel::scene::Colors;
 
 use crate::{
@@ -10,19 +12,39 @@ use crate::{
 /// Colors of C's, of as many as there are, of all alike, or none.
 ///
 /// # Safety
-/// `from` is NULL or leads to `color_count` of them.
+/// As [`copy_colors`].
 pub unsafe fn colors_of(from: *const f32, color_count: u64, count: u64) -> Result<Colors> {
+    let mut all = Vec::new();
+    // SAFETY: this function's contract.
+    unsafe { copy_colors(from, color_count, count, &mut all) }?;
+    Ok(colors_in(&mut all))
+}
+
+/// The same in a list of ours, in place of what is in it, for [`colors_in`].
+///
+/// # Safety
+/// `from` is NULL or leads to `color_count` of them.
+pub unsafe fn copy_colors(
+    from: *const f32,
+    color_count: u64,
+    count: u64,
+    into: &mut Vec<[f32; 4]>,
+) -> Result<()> {
     let given = if from.is_null() { 0 } else { color_count };
     if ![0, 1, count].contains(&given) || (given == 0 && !from.is_null() && count > 0) {
         return Err(Failure::invalid(format!("colorCount is {color_count}: expected 1 or {count}")));
     }
     // SAFETY: this function's contract.
-    let colors = unsafe { copied(from.cast(), given, "colors", |color: [f32; 4]| color) }?;
-    Ok(match colors[..] {
+    unsafe { copy(from.cast(), given, "colors", |color: [f32; 4]| color, into) }
+}
+
+/// What a list of ours means: one color for each, whose memory goes with them, one for all, or none.
+pub fn colors_in(colors: &mut Vec<[f32; 4]>) -> Colors {
+    match colors[..] {
         [] => Colors::unknown(),
         [color] => Colors::Uniform(color),
-        _ => Colors::Each(colors),
-    })
+        _ => Colors::Each(take(colors)),
+    }
 }
 
 /// An array of C's.

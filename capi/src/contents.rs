@@ -163,7 +163,7 @@ pub unsafe extern "C" fn surfel_scene_object_name(
         // SAFETY: the contract of the header.
         unsafe {
             let scene = get(scene, "scene")?;
-            told(&numbered(&scene.0, object)?.name, (name, capacity), length)
+            told(&numbered(&scene.0, object)?.name, (name, capacity, "name"), length)
         }
     })
 }

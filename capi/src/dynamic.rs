@@ -88,8 +88,8 @@ pub unsafe extern "C" fn surfel_dynamic_create(
     })
 }
 
-/// Says anew what is known of such splats, for frames that are recorded from now on: as many as there is room for, anywhere. Only `count`,
-/// bounds, radius and overlap may change. No other thread may use the scene meanwhile.
+/// Says anew what is known of such splats, for frames that are recorded from now on: as many as there is room for, anywhere. `capacity`, `closed` and `transparent`
+/// stay as they were. No other thread may use the scene meanwhile.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_dynamic_set(
     scene: *mut SurfelPreparedScene,

@@ -96,12 +96,16 @@ pub unsafe fn text<'a>(text: *const c_char, name: &str) -> Result<&'a str> {
 ///
 /// # Safety
 /// Both pointers are NULL, not aligned, or may be written, `to` for as many bytes as it is said to have room for.
-pub unsafe fn told(own: &str, (to, capacity): (*mut c_char, u64), length: *mut u64) -> Result<()> {
+pub unsafe fn told(
+    own: &str,
+    (to, capacity, name): (*mut c_char, u64, &str),
+    length: *mut u64,
+) -> Result<()> {
     // SAFETY: this function's contract.
     unsafe { Place::new(length, "length") }?.write(own.len() as u64);
     let Some(most) = capacity.checked_sub(1) else { return Ok(()) };
     if to.is_null() {
-        return Err(null("name"));
+        return Err(null(name));
     }
     let count = own.len().min(usize::try_from(most).unwrap_or(usize::MAX));
     // SAFETY: this function's contract: there is room for `capacity`, which is more than `count`.

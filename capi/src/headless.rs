@@ -101,7 +101,7 @@ pub unsafe extern "C" fn surfel_headless_device_name(
         // SAFETY: the contract of the header.
         unsafe {
             let headless = &get(headless, "headless")?.headless;
-            told(&headless.device().facts().name, (name, capacity), length)
+            told(&headless.device().facts().name, (name, capacity, "name"), length)
         }
     })
 }

@@ -22,7 +22,7 @@ pub unsafe extern "C" fn surfel_prepared_scene_object_name(
         // SAFETY: the contract of the header.
         unsafe {
             let scene = get(scene, "scene")?;
-            told(named(&scene.0.objects, object)?, (name, capacity), length)
+            told(named(&scene.0.objects, object)?, (name, capacity, "name"), length)
         }
     })
 }

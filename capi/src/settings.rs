@@ -55,7 +55,7 @@ pub unsafe extern "C" fn surfel_settings_get(
         let (settings, name) = unsafe { (get(settings, "settings")?, text(name, "name")?) };
         let words = (setting::<Settings>(name)?.get)(&settings.0);
         // SAFETY: as above.
-        unsafe { told(&words, (value, capacity), length) }
+        unsafe { told(&words, (value, capacity, "value"), length) }
     })
 }
 

@@ -12,7 +12,7 @@ use surfel::{
 };
 
 use crate::{
-    arrays::{array, copy},
+    arrays::{array, colors_in, copy, copy_colors},
     handle::text,
     result::{Failure, Result},
     rooms::SurfelRoom,
@@ -178,14 +178,8 @@ impl Arrays {
                 vectors(given.tangents_t, "tangentsT", t)?;
             }
         }
-        let color_count = if given.colors.is_null() { 0 } else { given.color_count };
-        if ![0, 1, count].contains(&color_count) || (color_count == 0 && !given.colors.is_null() && count > 0)
-        {
-            let text = format!("colorCount is {}: expected 1 or {count}", given.color_count);
-            return Err(Failure::invalid(text));
-        }
         // SAFETY: as above.
-        unsafe { copy(given.colors.cast(), color_count, "colors", |color: [f32; 4]| color, colors) }?;
+        unsafe { copy_colors(given.colors, given.color_count, count, colors) }?;
         let clips = match given.clips.is_null() {
             true => Clips::default(),
             // SAFETY: as above.
@@ -201,12 +195,7 @@ impl Arrays {
             true => Shapes::Disks { normals: take(normals), radii: take(radii) },
             false => Shapes::Ellipses { s: take(s), t: take(t) },
         };
-        let colors = match colors[..] {
-            [] => Colors::unknown(),
-            [color] => Colors::Uniform(color),
-            _ => Colors::Each(take(colors)),
-        };
-        Ok(Splats { clips, ..Splats::new(take(centers), shapes, colors) })
+        Ok(Splats { clips, ..Splats::new(take(centers), shapes, colors_in(colors)) })
     }
 
     /// Keeps the memory of splats that are not needed any more.

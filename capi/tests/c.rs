@@ -133,13 +133,16 @@ fn a_program_without_a_device_reads_makes_saves_and_draws() {
     let (program, below) = (folder.child("alone"), folder.child("below"));
     let [ply, png, exr, raw] = ["cube.ply", "a.png", "a.exr", "a.raw"].map(|name| folder.child(name));
     fs::create_dir(&below).unwrap();
-    let scene_file = below.join("scene.toml");
+    let [scene_file, fitted] = ["scene.toml", "fitted.toml"].map(|name| below.join(name));
     fs::write(&scene_file, "shading = \"lambert\"\n[camera]\neye = [0, 0, 9]\nfov_deg = 60\n[[object]]\nfile = \"../cube.ply\"\n").unwrap();
+    fs::write(&fitted, "[camera]\ntarget = \"box\"\n[[object]]\nfile = \"../cube.ply\"\nname = \"box\"\n")
+        .unwrap();
     let mut cc = cc(&program);
-    let sources = ["alone.c", "models.c"].map(|name| root().join("capi/tests/c_programs").join(name));
+    let sources =
+        ["alone.c", "models.c", "scene_files.c"].map(|name| root().join("capi/tests/c_programs").join(name));
     cc.arg(header()).args(sources).arg(libraries().join("libsurfel_c.a"));
     run(cc.args(["-lpthread", "-ldl", "-lm", "-lgcc_s"]));
-    run(Command::new(&program).args([&ply, &scene_file, &png, &exr, &raw]));
+    run(Command::new(&program).args([&ply, &scene_file, &fitted, &png, &exr, &raw]));
     let by_rust = through_rust::headless::picture();
     assert!(fs::read(&raw).unwrap() == by_rust.as_flattened(), "the same bytes");
     assert!(fs::read(&png).unwrap() == surfel::save::png_bytes([96; 2], 4, by_rust.as_flattened()).unwrap());

@@ -116,8 +116,9 @@ static void pictures(const char *png, const char *exr, const char *raw) {
 }
 
 int main(int argc, char **argv) {
-    if (argc != 6) return 1;
-    models(argv[1], argv[2]);
-    pictures(argv[3], argv[4], argv[5]);
+    if (argc != 7) return 1;
+    models(argv[1]);
+    scene_files(argv[2], argv[3]);
+    pictures(argv[4], argv[5], argv[6]);
     return 0;
 }

@@ -141,7 +141,7 @@ void dynamic(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     }
     SurfelDynamicSplats splats = {.sType = SURFEL_STRUCTURE_TYPE_DYNAMIC_SPLATS, .size = sizeof splats,
                                   .capacity = COUNT, .count = COUNT + 1, .least = {-1, -1, -1}, .most = {1, 1, 1},
-                                  .largestRadius = 0.1, .overlap = 5, .closed = VK_TRUE};
+                                  .largestRadius = 0.1, .overlap = 5, .closed = VK_TRUE, .origin = {5e5, -3e5, 7}};
     SurfelPreparedScene *ball, *uploaded = upload(engine, device, renderer, 1);
     IS(OPTION, surfel_dynamic_create(renderer, &splats, &ball), "2001 of them: there is room for 2000");
     IS(OPTION, surfel_dynamic_set(uploaded, &splats), "the scene was uploaded");
@@ -160,7 +160,7 @@ void dynamic(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
     const SurfelPreparedScene *scenes[] = {ball};
     const SurfelFrame frame = {.sType = SURFEL_STRUCTURE_TYPE_FRAME, .size = sizeof frame, .scenes = scenes,
                                .sceneCount = 1, .width = WIDTH, .height = HEIGHT,
-                               .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -4, 1},
+                               .viewFromWorld = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5e5, 3e5, -11, 1},
                                .clipFromView = {2.0 * HEIGHT / WIDTH, 0, 0, 0, 0, -2, 0, 0, 0, 0, 0, -1, 0, 0, 0.1, 0}};
     for (int halves = 2; halves > 0; halves--) {
         engine_begin(engine);
@@ -184,6 +184,19 @@ void dynamic(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer) {
         TRUE(above[0] < 0.1f && above[2] > 0.3f);
         TRUE(halves == 2 ? below[0] < 0.1f && below[2] > 0.3f : below[0] == 0.2f);
     }
+    const SurfelDynamicSplats known = splats;
+    splats.closed = VK_FALSE;
+    IS(OPTION, surfel_dynamic_set(ball, &splats), "another capacity, closed or transparent");
+    splats = known, splats.transparent = VK_TRUE;
+    IS(OPTION, surfel_dynamic_set(ball, &splats), "another capacity, closed or transparent");
+    splats = known, splats.capacity--;
+    IS(OPTION, surfel_dynamic_set(ball, &splats), "another capacity, closed or transparent");
+    splats = known, splats.least[1] = 2;
+    IS(OPTION, surfel_dynamic_set(ball, &splats), "the smaller coordinates first");
+    splats = known, splats.overlap = 0.5;
+    IS(OPTION, surfel_dynamic_set(ball, &splats), "an overlap of 1 or more");
+    splats = known, splats.largestRadius = 0;
+    IS(OPTION, surfel_dynamic_set(ball, &splats), "a radius above 0");
     surfel_prepared_scene_destroy(ball);
     surfel_view_destroy(view);
 }
