@@ -1,6 +1,8 @@
 //! A picture of a scene, drawn again and again for one use.
 
-use std::time::{Duration, Instant};
+mod cost;
+
+pub use cost::{Begun, Cost};
 
 use ash::vk;
 use surfel::{
@@ -55,22 +57,6 @@ pub struct Picture {
     costs: Vec<Cost>,
 }
 
-/// What a frame has cost.
-pub struct Cost {
-    /// Seconds on the device; where it can't tell, from the recording to when the end was seen.
-    pub secs: f64,
-    /// Of its passes.
-    pub profile: FrameProfile,
-    /// Width and height.
-    pub size_px: [u32; 2],
-    /// Pipelines were made for it, which takes time on some devices' side, too.
-    pub compiles: bool,
-    /// What it was to the picture.
-    pub what: &'static str,
-    /// From the input that it answers to when its end was seen.
-    pub since_input: Option<Duration>,
-}
-
 struct Slot {
     slot: FrameSlot,
     /// The submission that uses it; 0 before the first.
@@ -101,23 +87,6 @@ impl Inputs {
         let (camera, settings) = (*seen.camera, seen.settings.clone());
         Self { camera, settings, is_light, sample, scene_number, profile }
     }
-}
-
-/// A frame under way.
-#[derive(Clone, Copy)]
-pub struct Begun {
-    /// When its recording began.
-    pub at: Instant,
-    /// The input that it answers to.
-    pub input: Option<Instant>,
-    /// What it is to the picture.
-    pub what: &'static str,
-    /// Width and height.
-    pub size_px: [u32; 2],
-    /// Pipelines were made for it, or ran for the first time.
-    pub compiles: bool,
-    /// It is a step of a picture: its queries are those of several.
-    pub is_step: bool,
 }
 
 impl Picture {
