@@ -51,7 +51,7 @@ pub(super) fn write_part<W: Write + Seek>(
     hierarchy: &Hierarchy,
     overlaps: (&Overlaps, f64),
 ) -> io::Result<Root> {
-    let Hierarchy { nodes, tree, bounds, order, leaf_parents, .. } = hierarchy;
+    let Hierarchy { tree, bounds, order, leaf_parents, .. } = hierarchy;
     if tree.is_empty() {
         let inverse = overlaps.0.inverse.first().copied().unwrap_or(1.0);
         return Ok(Root::Splat(splats.picked(0..splats.len()), inverse));
@@ -63,7 +63,7 @@ pub(super) fn write_part<W: Write + Seek>(
         let which = sorted[pages].iter().map(|(i, _)| 1 + *i as usize);
         let own = which.clone().map(|i| (bounds[i].error, weights[i])).collect();
         let parents = which.clone().map(|i| tree[i].parent);
-        writer.page(Page::of(nodes.picked(which), parents, ball, Told::Nodes(own)))?;
+        writer.page(Page::of(hierarchy.drawn_nodes(which), parents, ball, Told::Nodes(own)))?;
     }
     let sorted = by_spread(order.len(), |i| ball(leaf_parents[i]).spread);
     for pages in runs(&sorted) {
@@ -73,7 +73,7 @@ pub(super) fn write_part<W: Write + Seek>(
         let parents = places.map(|place| leaf_parents[place]);
         writer.page(Page::of(splats.picked(numbers), parents, ball, Told::Splats(inverse)))?;
     }
-    Ok(Root::Node { splats: nodes.picked(0..1), ball: bounds[0].error, weight: weights[0] })
+    Ok(Root::Node { splats: hierarchy.drawn_nodes(0..1), ball: bounds[0].error, weight: weights[0] })
 }
 
 /// Writes the nodes above parts, and the roots of these, each with the number of the node above it.

@@ -13,11 +13,16 @@
 //! **Where normals cancel** (their mean is shorter than ½, that of a hemisphere) the surface turns back on itself below the node, and the mean
 //! normal is that of what is left over: of a plate, its rim. The plane is then the one to which the surface is nearest, whose
 //! normal is the covariance's smallest eigenvector.
+//!
+//! **What is drawn of it.** An ellipse that holds all disks has a kernel much wider than what those sum to, and its picture is blurred. So it is drawn
+//! as long along each axis as has its kernel spread as the kernels below do together, by their second moments, times [`DRAWN`], and no longer than what holds
+//! all. With moments alone sums of weights would vary: blocks of a plane, each replaced by a kernel as wide, sum to 0.6 to 1.4 (a Gaussian of the
+//! variance of a block). Balls, cones and what is proved of nodes are those of the ellipse that holds all.
 
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::{disks::Disk, farthest::farthest_square};
+use super::{disks::Disk, farthest::farthest_square, moments::KERNEL_SQUARE};
 use crate::geometry::eigen::eigen;
 
 /// The mean of unit normals below which they are taken to cancel: that of a hemisphere.
@@ -29,6 +34,9 @@ const LEAST_AXIS_RATIO: f64 = 1.0 / 1024.0;
 /// More than f32 loses of an ellipse's axes and a disk's, in parts of f where the axes are equally long. The longer axis turns by as
 /// much, which the ratio of both makes larger beside the shorter one.
 const ROUNDING: f64 = 1.0 / (1 << 22) as f64;
+
+/// How many times as long what is drawn is as by second moments alone.
+pub(super) const DRAWN: f64 = 1.25;
 
 /// Below so many disks f is found by one thread.
 const DISKS_AT_ONCE: usize = 1 << 14;
@@ -44,11 +52,13 @@ pub(super) struct Ellipse {
     minor: DVec3,
     /// The lengths of both.
     lengths: [f64; 2],
+    /// Half axes along both of one kernel that spreads as those of the disks below do together.
+    kernel_lengths: [f64; 2],
 }
 
 impl Ellipse {
-    /// `mean_normal` is that of unit normals; `covariance` about the center.
-    pub fn new(center: DVec3, mean_normal: DVec3, covariance: &DMat3) -> Self {
+    /// `mean_normal` is that of unit normals; `covariance` about the center, and `of_kernels` that with the disks' weights.
+    pub fn new(center: DVec3, mean_normal: DVec3, covariance: &DMat3, of_kernels: &DMat3) -> Self {
         let normal = plane_normal(mean_normal, covariance);
         let (x, y) = normal.any_orthonormal_pair();
         let (along_x, along_y) = (*covariance * x, *covariance * y);
@@ -58,7 +68,9 @@ impl Ellipse {
         let longer = (middle + half).sqrt();
         let shorter = (middle - half).max(0.0).sqrt().max(LEAST_AXIS_RATIO * longer);
         let (major, minor) = (cos * x + sin * y, cos * y - sin * x);
-        Self { center, normal, major, minor, lengths: [longer, shorter] }
+        let kernel = |axis: DVec3| (axis.dot(*of_kernels * axis).max(0.0) / KERNEL_SQUARE).sqrt();
+        let kernel_lengths = [kernel(major), kernel(minor)];
+        Self { center, normal, major, minor, lengths: [longer, shorter], kernel_lengths }
     }
 
     /// The ellipse's axes, scaled so that all these disks project into it, along lines up to 45° from the normal.
@@ -79,6 +91,12 @@ impl Ellipse {
         let [longer, shorter] = self.lengths;
         let f = square.sqrt() * (1.0 + ROUNDING * longer / shorter);
         (f * longer * self.major, f * shorter * self.minor)
+    }
+
+    /// What parts of these axes, which hold all disks below, are drawn.
+    pub fn drawn_parts(&self, (s, t): (DVec3, DVec3)) -> [f32; 2] {
+        let part = |length: f64, axis: DVec3| (DRAWN * length / axis.length()).clamp(LEAST_AXIS_RATIO, 1.0);
+        [part(self.kernel_lengths[0], s) as f32, part(self.kernel_lengths[1], t) as f32]
     }
 
     /// f² for some disks; 0 for none.

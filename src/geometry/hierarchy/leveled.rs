@@ -1,6 +1,6 @@
 //! A hierarchy as what a device draws: splats that decide alone.
 
-use super::{Hierarchy, Node};
+use super::{Hierarchy, Node, drawn_parts};
 use crate::{
     geometry::overlaps::{Overlaps, area_of},
     scene::{ErrorBall, LeveledObject, NodeBalls, Object, Splats},
@@ -45,13 +45,13 @@ impl Hierarchy {
             leaf_parents: self.leaf_parents.iter().map(|parent| (*parent).min(above)).collect(),
             inverse_overlaps: Some(self.order.iter().map(|i| overlaps.inverse[*i as usize]).collect()),
             balls,
-            nodes: self.nodes,
+            nodes: drawn_parts(self.nodes, self.drawn.into_iter()),
             weights,
         }
     }
 
     /// Where nodes are drawn for splats, weights add up to what those would leave there: each node weighs by the area of the disks below
-    /// it, each over its overlap, times `overlap`, over its own area. `splats`: those from which this was built, with their overlaps.
+    /// it, each over its overlap, times `overlap`, over the area that is drawn of it. `splats`: those from which this was built, with their overlaps.
     pub fn weights(&self, splats: &Splats, (overlaps, overlap): (&Overlaps, f64)) -> Vec<f32> {
         let mut area = 0.0;
         let mut areas_before = vec![area];
@@ -61,7 +61,11 @@ impl Hierarchy {
         }));
         let below =
             |node: &Node| areas_before[node.splats.end as usize] - areas_before[node.splats.start as usize];
+        let drawn = |i: usize| {
+            let [of_s, of_t] = self.drawn[i].map(f64::from);
+            of_s * of_t * area_of(&self.nodes, i)
+        };
         let nodes = (0..).zip(&self.tree);
-        nodes.map(|(i, node)| (below(node) / area_of(&self.nodes, i)) as f32).collect()
+        nodes.map(|(i, node)| (below(node) / drawn(i)) as f32).collect()
     }
 }

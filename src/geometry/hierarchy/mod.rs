@@ -6,7 +6,7 @@
 //!
 //! **A node's splat** (`ellipse`) is an ellipse in the plane through the surface's centroid below it: its axes are those of the surface's
 //! covariance (`moments`), its size the least that hides all disks below from up to 45° to its normal. All means weigh by area
-//! (`sums`).
+//! (`sums`). Drawn is a part of it, whose kernel spreads about as those below do together.
 //!
 //! **Any node decides alone whether it is drawn** (`bounds`, `select`): each has a ball and a length that make its size on the screen
 //! never larger than its parent's, from wherever it is seen.
@@ -55,12 +55,14 @@ pub const STEPS: [&str; 2] = ["cut into an octree", "fit ellipses of nodes"];
 /// Nodes are numbered by level from the root, and within a level along the tree; splats lie along the tree, too, so that what is below a
 /// node is a run of [`Self::order`], and neighbors in number are neighbors in space.
 ///
-/// A node takes 120 bytes here (104 with one color for all), a splat 8 beside its own.
+/// A node takes 128 bytes here (112 with one color for all), a splat 8 beside its own.
 #[derive(Clone, Debug)]
 pub struct Hierarchy {
     /// An ellipse for each node, in world space: every line at up to 45° to its normal that meets a disk below meets it. Linear mean color and alpha by area; one
     /// color for all where the input has one. The normal is the mean normal, where normals agree.
     pub nodes: Splats,
+    /// What parts of the axes of each node's ellipse are drawn: so long that its kernel spreads about as those below do together.
+    pub drawn: Vec<[f32; 2]>,
     /// Where each node lies in the tree.
     pub tree: Vec<Node>,
     /// What bounds each node and all below it. Lengths and places are counted from [`Self::origin`].
@@ -134,14 +136,15 @@ impl Hierarchy {
         let disks = Disks::of(splats, &tree.order);
         let (nodes, bounds) = sums::node_splats(&tree, &disks, &splats.colors, origin, progress);
         let split::Tree { nodes: tree, levels, order, leaf_parents } = tree;
+        let drawn = nodes.iter().map(|node| node.drawn).collect();
         let nodes = as_splats(&nodes, &splats.colors);
-        Ok(Self { nodes, tree, bounds, levels, order, leaf_parents, origin })
+        Ok(Self { nodes, drawn, tree, bounds, levels, order, leaf_parents, origin })
     }
 
-    /// Bytes of memory that it needs beside the splats: for a node [`Self::nodes`] as splats need, 20 for its place in the tree and 36 for
-    /// its bounds; for a splat 8.
+    /// Bytes of memory that it needs beside the splats: for a node [`Self::nodes`] as splats need, 20 for its place in the tree, 36 for
+    /// its bounds and 8 for what is drawn of it; for a splat 8.
     pub fn bytes(&self) -> u64 {
-        let node = size_of::<Node>() + size_of::<Bounds>();
+        let node = size_of::<Node>() + size_of::<Bounds>() + size_of::<[f32; 2]>();
         let (nodes, leaves) = (self.tree.len() * node, self.order.len() * 2 * size_of::<u32>());
         self.nodes.bytes() + (nodes + leaves) as u64
     }
@@ -154,6 +157,11 @@ impl Hierarchy {
     /// By what the splat at place `i` of [`Self::order`] is drawn.
     pub fn leaf_levels(&self, i: usize) -> Levels {
         Levels { own: ErrorBall::LEAF, parent: self.error_of(self.leaf_parents[i]) }
+    }
+
+    /// Some nodes as they are drawn.
+    pub fn drawn_nodes(&self, which: impl Iterator<Item = usize> + Clone) -> Splats {
+        drawn_parts(self.nodes.picked(which.clone()), which.map(|i| self.drawn[i]))
     }
 
     fn error_of(&self, parent: u32) -> ErrorBall {
@@ -191,6 +199,16 @@ fn check(splats: &Splats) -> Result<()> {
         Some(i) => refused(format!("splat {i} is beyond 1e37")),
         None => Ok(()),
     }
+}
+
+/// Of ellipses those with such parts of their axes.
+fn drawn_parts(mut nodes: Splats, drawn: impl Iterator<Item = [f32; 2]>) -> Splats {
+    if let Shapes::Ellipses { s, t } = &mut nodes.shapes {
+        for ((s, t), [of_s, of_t]) in s.iter_mut().zip(t).zip(drawn) {
+            (*s, *t) = (of_s * *s, of_t * *t);
+        }
+    }
+    nodes
 }
 
 fn as_splats(nodes: &[NodeSplat], colors: &Colors) -> Splats {

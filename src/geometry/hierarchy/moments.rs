@@ -13,6 +13,12 @@ use glam::{DMat3, DVec3};
 
 use super::disks::Disk;
 
+/// The mean of u² over the unit disk.
+const DISK_SQUARE: f64 = 0.25;
+
+/// The mean of u² by the weights that a splat has by default, exp(−2 r²) up to its rim: (1 − 3 e⁻²) / 4 (1 − e⁻²).
+pub(super) const KERNEL_SQUARE: f64 = 0.171_741;
+
 /// The distinct entries of `M' = Σ w p' p'ᵀ`, with `p` counted from some center.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moments {
@@ -35,7 +41,7 @@ impl Moments {
     pub fn of(disk: &Disk) -> Self {
         let weight = disk.area_normal().length();
         let (s, t) = (disk.s.as_dvec3(), disk.t.as_dvec3());
-        let quarter = 0.25 * weight;
+        let quarter = DISK_SQUARE * weight;
         Self {
             weight,
             first: DVec3::ZERO,
@@ -67,6 +73,19 @@ impl Moments {
         let DVec3 { x: xx, y: yy, z: zz } = self.squares / self.weight;
         let DVec3 { x: yz, y: zx, z: xy } = self.products / self.weight;
         DMat3::from_cols(DVec3::new(xx, xy, zx), DVec3::new(xy, yy, yz), DVec3::new(zx, yz, zz))
+    }
+}
+
+impl Moments {
+    /// The covariance where the weight of each disk falls toward its rim as its kernel does. `own`: the sum of those of the disks, each about its own center.
+    pub fn covariance_of_kernels(&self, own: &Self) -> DMat3 {
+        let less = 1.0 - KERNEL_SQUARE / DISK_SQUARE;
+        Self {
+            squares: self.squares - less * own.squares,
+            products: self.products - less * own.products,
+            ..*self
+        }
+        .covariance()
     }
 }
 

@@ -27,6 +27,8 @@ pub(super) struct NodeSplat {
     pub t: Vec3,
     /// Linear, and straight alpha.
     pub color: [f32; 4],
+    /// What parts of s and t are drawn.
+    pub drawn: [f32; 2],
 }
 
 /// What a disk or a node adds to its parent.
@@ -39,8 +41,8 @@ pub(super) struct Sums {
     normal: DVec3,
     /// Red, green and blue by area and alpha; alpha by area.
     color: [f64; 4],
-    /// Of the moments, what the disks have about their own centers: the trace.
-    own_squares: f64,
+    /// Of the moments, what the disks have about their own centers.
+    own: Moments,
 }
 
 /// The splats and the bounds of all nodes, level by level from the lowest; `origin` is that of the bounds.
@@ -64,7 +66,8 @@ pub(super) fn node_splats(
             let center = sums.center;
             let (ellipse, spread) = sums.ellipse();
             let (s, t) = ellipse.axes_around(disks.run(&node.splats));
-            *splat = NodeSplat { center, s: s.as_vec3(), t: t.as_vec3(), color: sums.mean_color() };
+            let (drawn, color) = (ellipse.drawn_parts((s, t)), sums.mean_color());
+            *splat = NodeSplat { center, s: s.as_vec3(), t: t.as_vec3(), color, drawn };
             let leaves = node.leaf_runs(&tree.nodes).flat_map(|run| disks.run(&run));
             let own = (center - origin, ellipse.normal, s.length(), spread);
             *bounds = Bounds::around(own, &bounds_below[below(node, level)], origin, leaves);
@@ -106,7 +109,7 @@ impl Sums {
         moments: Moments::NONE,
         normal: DVec3::ZERO,
         color: [0.0; 4],
-        own_squares: 0.0,
+        own: Moments::NONE,
     };
 
     pub fn of_disk(disk: &Disk, colors: &Colors) -> Self {
@@ -114,8 +117,7 @@ impl Sums {
         let [red, green, blue, alpha] = colors.get(disk.number as usize).unwrap_or_default().map(f64::from);
         let alpha = alpha.clamp(0.0, 1.0) * moments.weight;
         let color = [alpha * red, alpha * green, alpha * blue, alpha];
-        let own_squares = moments.trace();
-        Self { center: disk.center, moments, normal: disk.area_normal(), color, own_squares }
+        Self { center: disk.center, moments, normal: disk.area_normal(), color, own: moments }
     }
 
     pub fn of_parts(parts: &[Self]) -> Self {
@@ -130,7 +132,7 @@ impl Sums {
         for part in parts {
             sums.moments += part.moments.moved(part.center - sums.center);
             sums.normal += part.normal;
-            sums.own_squares += part.own_squares;
+            sums.own += part.own;
             sums.color = std::array::from_fn(|i| sums.color[i] + part.color[i]);
         }
         sums
@@ -140,8 +142,10 @@ impl Sums {
     pub fn ellipse(&self) -> (Ellipse, f64) {
         let covariance = self.moments.covariance();
         let squares = covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z;
-        let spread = (squares - self.own_squares / self.moments.weight).max(0.0).sqrt();
-        (Ellipse::new(self.center, self.normal / self.moments.weight, &covariance), spread)
+        let spread = (squares - self.own.trace() / self.moments.weight).max(0.0).sqrt();
+        let of_kernels = self.moments.covariance_of_kernels(&self.own);
+        let mean_normal = self.normal / self.moments.weight;
+        (Ellipse::new(self.center, mean_normal, &covariance, &of_kernels), spread)
     }
 
     /// Straight alpha; black where nothing is seen.

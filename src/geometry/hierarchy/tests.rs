@@ -1,6 +1,7 @@
 //! Hierarchies of several models, each node of them held against all disks below it.
 
 mod conservative;
+mod drawn;
 pub(crate) mod models;
 mod moments;
 mod selection;

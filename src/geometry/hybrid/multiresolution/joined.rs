@@ -98,7 +98,7 @@ impl Joined<'_> {
         let (mut positions, mut s, mut t) = (Vec::new(), Vec::new(), Vec::new());
         let (mut colors, mut weights) = (Vec::new(), Vec::new());
         for (node, below) in self.top.iter().zip(below) {
-            let [along_s, along_t] = node.axes;
+            let [along_s, along_t] = [0, 1].map(|i| node.drawn[i] * node.axes[i]);
             positions.push(node.center);
             s.push(along_s);
             t.push(along_t);
@@ -106,11 +106,12 @@ impl Joined<'_> {
             weights.push((below / along_s.as_dvec3().cross(along_t.as_dvec3()).length()) as f32);
         }
         for part in self.parts {
-            let Shapes::Ellipses { s: of_s, t: of_t } = &part.hierarchy.nodes.shapes else { continue };
-            positions.extend(&part.hierarchy.nodes.positions);
+            let nodes = part.hierarchy.drawn_nodes(0..part.hierarchy.tree.len());
+            let Shapes::Ellipses { s: of_s, t: of_t } = &nodes.shapes else { continue };
+            positions.extend(&nodes.positions);
             s.extend(of_s);
             t.extend(of_t);
-            colors.extend((0..of_s.len()).map(|i| part.hierarchy.nodes.color(i)));
+            colors.extend((0..of_s.len()).map(|i| nodes.color(i)));
             weights.extend(&part.weights);
         }
         let colors = match self.sampled.splats.colors {
