@@ -17,12 +17,13 @@
 //! **What is drawn of it.** An ellipse that holds all disks has a kernel much wider than what those sum to, and its picture is blurred. So it is drawn
 //! as long along each axis as has its kernel spread as the kernels below do together, by their second moments, times [`DRAWN`], and no longer than what holds
 //! all. With moments alone sums of weights would vary: blocks of a plane, each replaced by a kernel as wide, sum to 0.6 to 1.4 (a Gaussian of the
-//! variance of a block). Balls, cones and what is proved of nodes are those of the ellipse that holds all.
+//! variance of a block). So they do where a node has many splats, of whose own width little is left in the sum: its ellipse is drawn as a whole, or lines of sight would pass between
+//! such nodes where a surface bends. Balls, cones and what is proved of nodes are those of the ellipse that holds all.
 
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::{disks::Disk, farthest::farthest_square, moments::KERNEL_SQUARE};
+use super::{LEAF_SPLATS, disks::Disk, farthest::farthest_square, moments::KERNEL_SQUARE};
 use crate::geometry::eigen::eigen;
 
 /// The mean of unit normals below which they are taken to cancel: that of a hemisphere.
@@ -36,7 +37,11 @@ const LEAST_AXIS_RATIO: f64 = 1.0 / 1024.0;
 const ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 
 /// How many times as long what is drawn is as by second moments alone.
-pub(super) const DRAWN: f64 = 1.25;
+pub(super) const DRAWN: f64 = 1.2;
+
+/// Nodes of so many splats are drawn as long as that; from there on longer, up to the whole ellipse from [`WHOLE_SPLATS`] on.
+const FEW_SPLATS: f64 = LEAF_SPLATS as f64;
+const WHOLE_SPLATS: f64 = 64.0;
 
 /// Below so many disks f is found by one thread.
 const DISKS_AT_ONCE: usize = 1 << 14;
@@ -93,9 +98,13 @@ impl Ellipse {
         (f * longer * self.major, f * shorter * self.minor)
     }
 
-    /// What parts of these axes, which hold all disks below, are drawn.
-    pub fn drawn_parts(&self, (s, t): (DVec3, DVec3)) -> [f32; 2] {
-        let part = |length: f64, axis: DVec3| (DRAWN * length / axis.length()).clamp(LEAST_AXIS_RATIO, 1.0);
+    /// What parts of these axes, which hold all disks below, are drawn where those are so many.
+    pub fn drawn_parts(&self, (s, t): (DVec3, DVec3), disks: usize) -> [f32; 2] {
+        let whole = wholeness(disks);
+        let part = |length: f64, axis: DVec3| {
+            let by_moments = (DRAWN * length / axis.length()).clamp(LEAST_AXIS_RATIO, 1.0);
+            by_moments + whole * (1.0 - by_moments)
+        };
         [part(self.kernel_lengths[0], s) as f32, part(self.kernel_lengths[1], t) as f32]
     }
 
@@ -111,6 +120,11 @@ impl Ellipse {
             farthest_square(largest, in_plane(center), in_plane(s), in_plane(t), moved)
         })
     }
+}
+
+/// From 0 of nodes of few splats to 1 of those that are drawn as whole ellipses.
+pub(super) fn wholeness(disks: usize) -> f64 {
+    ((disks as f64 / FEW_SPLATS).ln() / (WHOLE_SPLATS / FEW_SPLATS).ln()).clamp(0.0, 1.0)
 }
 
 fn plane_normal(mean_normal: DVec3, covariance: &DMat3) -> DVec3 {

@@ -66,7 +66,7 @@ pub(super) fn node_splats(
             let center = sums.center;
             let (ellipse, spread) = sums.ellipse();
             let (s, t) = ellipse.axes_around(disks.run(&node.splats));
-            let (drawn, color) = (ellipse.drawn_parts((s, t)), sums.mean_color());
+            let (drawn, color) = (ellipse.drawn_parts((s, t), node.splats.len()), sums.mean_color());
             *splat = NodeSplat { center, s: s.as_vec3(), t: t.as_vec3(), color, drawn };
             let leaves = node.leaf_runs(&tree.nodes).flat_map(|run| disks.run(&run));
             let own = (center - origin, ellipse.normal, s.length(), spread);

@@ -41,15 +41,13 @@ pub struct Top {
 pub struct TopNode {
     /// The center of its ellipse, in world space.
     pub center: DVec3,
-    /// The axes of the ellipse that holds all below.
+    /// The ellipse's axes; it is drawn as a whole.
     pub axes: [Vec3; 2],
-    /// What parts of them are drawn beside nodes of parts, as [`Hierarchy::drawn`]. Files have the whole: an outlier in any part is to be seen.
-    pub drawn: [f32; 2],
     /// Linear mean color and alpha.
     pub color: [f32; 4],
     /// By what it is drawn.
     pub error: ErrorBall,
-    /// As [`Hierarchy::weights`], of the whole ellipse.
+    /// As [`Hierarchy::weights`].
     pub weight: f32,
     /// Its parent; `None` of the root.
     pub parent: Option<usize>,
@@ -169,7 +167,6 @@ impl Top {
             finished.push(TopNode {
                 center,
                 axes,
-                drawn: node.ellipse.drawn_parts((s, t)),
                 color: node.sums.mean_color(),
                 error: bounds[number].error,
                 weight: (node.sums.moments.weight / area) as f32,

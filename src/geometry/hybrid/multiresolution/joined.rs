@@ -98,7 +98,7 @@ impl Joined<'_> {
         let (mut positions, mut s, mut t) = (Vec::new(), Vec::new(), Vec::new());
         let (mut colors, mut weights) = (Vec::new(), Vec::new());
         for (node, below) in self.top.iter().zip(below) {
-            let [along_s, along_t] = [0, 1].map(|i| node.drawn[i] * node.axes[i]);
+            let [along_s, along_t] = node.axes;
             positions.push(node.center);
             s.push(along_s);
             t.push(along_t);
