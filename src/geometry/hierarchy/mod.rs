@@ -61,7 +61,7 @@ pub struct Hierarchy {
     /// An ellipse for each node, in world space: every line at up to 45° to its normal that meets a disk below meets it. Linear mean color and alpha by area; one
     /// color for all where the input has one. The normal is the mean normal, where normals agree.
     pub nodes: Splats,
-    /// What parts of the axes of each node's ellipse are drawn: so long that its kernel spreads about as those below do together.
+    /// What parts of the axes of each node's ellipse are drawn: so long that its kernel spreads about as those below do together, of few splats.
     pub drawn: Vec<[f32; 2]>,
     /// Where each node lies in the tree.
     pub tree: Vec<Node>,
@@ -112,7 +112,7 @@ impl Hierarchy {
     /// Puts splats into a tree, and finds what its nodes look like, in two [`STEPS`]. The same splats give the same bytes, however many threads there are; time is O(n log n) for any input,
     /// also where all centers are equal.
     ///
-    /// Memory while it is built: 64 bytes a splat and 250 a node, of which there are a third as many on surfaces, and fewer always.
+    /// Memory while it is built: 64 bytes a splat and 320 a node, of which there are a third as many on surfaces, and fewer always.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Input`] for a splat with a [`crate::scene::Defect`] or a clip curve ([`left_by_clips`] has none), a coordinate or radius above
