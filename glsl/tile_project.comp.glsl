@@ -24,7 +24,6 @@
 
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
 layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
-layout(constant_id = SPEC_SHARP) const bool SHARP = false; // and edges are covered in part
 layout(constant_id = SPEC_PARTED) const uint PARTED_BY = 0;
 const bool BESIDE_CURVES = PARTED_BY == PARTED_CURVES + PARTED_PLANES; // where others have clip curves, it has to be told that there is none
 const uint ALL_CELLS = (1u << CELLS_ALONG * CELLS_ALONG) - 1;

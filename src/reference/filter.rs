@@ -25,13 +25,13 @@ pub(super) fn minor_axis(a: DVec2, b: DVec2) -> f64 {
 }
 
 /// How much thicker a surface of transparent splats is in a pixel, in radii, where a filter of radius `h` (image plane) lengthens
-/// the minor axis of their images from l to L = √(l² + h²), at most to 16 l. A splat whose center is L away, where the surface
+/// the minor axis of their images from l to L = √(l² + h²), at most to so many times l. A splat whose center is L away, where the surface
 /// is r L / l deeper, makes up r of that by its slant: fragments are up to r (L / l − 1) off, to either side.
 ///
 /// This is L / l.
-pub(super) fn lengthened(center: DVec3, s: DVec3, t: DVec3, h: f64) -> f64 {
+pub(super) fn lengthened(center: DVec3, s: DVec3, t: DVec3, h: f64, most: f64) -> f64 {
     let minor = minor_axis(projected(center, s), projected(center, t));
-    if minor > 0.0 { (1.0 + (h / minor).powi(2)).sqrt().min(16.0) } else { 16.0 }
+    if minor > 0.0 { (1.0 + (h / minor).powi(2)).sqrt().min(most) } else { most }
 }
 
 /// `s` and `t` after the rotation of the parametrization that makes their projections orthogonal, the first one the

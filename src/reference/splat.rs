@@ -97,8 +97,10 @@ const REGULAR_DEPTH_RATIO: f64 = 0.9;
 const LEAST_SHIFT: f64 = 1e-6;
 
 /// How much more than by itself ε grows, where edges are not hard, as a filter lengthens a splat that is as deep as it is large: near a
-/// silhouette a surface bends away from the plane of its nearest splat within the filter's reach.
-const EDGE_LENGTHENING: f64 = 16.0;
+/// silhouette a surface bends away from the plane of its nearest splat within the filter's reach. Then the ratio to which it lengthens it at most. A surface with sharp edges bends more.
+const EDGE_LENGTHENING: [f64; 2] = [4.0, 52.0];
+const SHARP_LENGTHENING: [f64; 2] = [16.0, MOST_LENGTHENED];
+const MOST_LENGTHENED: f64 = 16.0;
 
 /// Every splat of the scene that can be seen from the front or is to be turned, and what was left out as defective.
 /// Objects whose every alpha is 0 have none.
@@ -191,9 +193,10 @@ fn prepare_one(
         Filter::None => 1.0,
         _ if overlap.is_some() && !is_layered && regular => {
             let slant = depth_radius / splats.major_radius(i);
-            1.0 + (lengthened(center, s, t, h) - 1.0) * (1.0 + EDGE_LENGTHENING * slant)
+            let [by_slant, most] = if splats.clips.is_empty() { EDGE_LENGTHENING } else { SHARP_LENGTHENING };
+            1.0 + (lengthened(center, s, t, h, most) - 1.0) * (1.0 + by_slant * slant)
         }
-        _ if is_layered && regular => 1.0 + 2.0 * (lengthened(center, s, t, h) - 1.0),
+        _ if is_layered && regular => 1.0 + 2.0 * (lengthened(center, s, t, h, MOST_LENGTHENED) - 1.0),
         _ => 1.0,
     };
     let epsilon = rule.epsilon(i, splats.major_radius(i) * thickness);
