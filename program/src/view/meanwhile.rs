@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use surfel::{
     Result,
+    prepare::PreparedScene,
     scene::{Camera, Encoding, Settings},
 };
 
@@ -48,6 +49,13 @@ impl Viewer {
     fn newest(&self) -> Option<(usize, Edits)> {
         let document = self.document.as_ref()?;
         Some((Arc::as_ptr(&document.scene).addr(), self.edits.clone()))
+    }
+
+    /// Whether what is on the device can be drawn so. It may be older than what the settings were chosen for: what was transparent until now has no eye-dome lighting.
+    pub fn can_be_drawn(&self, settings: &Settings) -> bool {
+        let scene = self.prepared.as_ref().map(OnDevice::scene);
+        let is_transparent = scene.is_some_and(PreparedScene::is_transparent);
+        !is_transparent || settings.check_eye_dome("the scene", "transparent").is_ok()
     }
 
     /// There may be pipelines to make.

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use surfel::{Error, ErrorKind, Result};
+use surfel::{Error, ErrorKind, Result, scene::Settings};
 
 use super::{
     anchor::Anchor,
@@ -28,6 +28,11 @@ impl Viewer {
         {
             self.tell(&error.to_string());
             self.settings = settings;
+            // What was made transparent since then has no eye-dome lighting.
+            let scene = self.document.as_ref().map(|document| &document.scene);
+            if scene.is_some_and(|scene| self.edits.check(scene, &self.settings).is_err()) {
+                self.settings.shading = Settings::default().shading;
+            }
             if let Some(navigation) = &mut self.navigation {
                 navigation.camera = camera;
             }

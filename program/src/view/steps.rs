@@ -105,8 +105,11 @@ impl Viewer {
             self.comparing = None;
             self.tell(&format!("no comparison: {error}"));
         }
-        let wants = (self.is_stale || is_coarse || refines) && !begins_again;
-        if !wants && !is_moving && refinement.is_none() && self.can_refine()? {
+        // Until then the picture stays.
+        let can_be_drawn =
+            self.can_be_drawn(whole) && (self.comparing.is_none() || self.can_be_drawn(&self.other));
+        let wants = (self.is_stale || is_coarse || refines) && !begins_again && can_be_drawn;
+        if !wants && !is_moving && refinement.is_none() && can_be_drawn && self.can_refine()? {
             if let Some(HiddenPicture { what, camera, settings }) = self.next_hidden(whole) {
                 let choice = self.choice_of(vec![(Use::Moving, settings)], Some(camera), "ahead");
                 return Ok(Choice { hidden: Some(what), ..choice });
