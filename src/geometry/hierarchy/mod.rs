@@ -112,7 +112,7 @@ impl Hierarchy {
     /// Puts splats into a tree, and finds what its nodes look like, in two [`STEPS`]. The same splats give the same bytes, however many threads there are; time is O(n log n) for any input,
     /// also where all centers are equal.
     ///
-    /// Memory while it is built: 64 bytes a splat and 320 a node, of which there are a third as many on surfaces, and fewer always.
+    /// Memory while it is built: 64 bytes a splat and 330 a node, of which there are a third as many on surfaces, and fewer always.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Input`] for a splat with a [`crate::scene::Defect`] or a clip curve ([`left_by_clips`] has none), a coordinate or radius above
