@@ -54,13 +54,13 @@ const float LARGEST_EPSILON = 1e30;
 // Where edges are covered in part, so does epsilon of opaque splats, for all of a surface that reaches a pixel has to be summed: its color
 // is nearer to the truth, too, from 0.031 to 0.011 RMS on a scan of 134 thousand splats in 256 x 256 pixels. There it goes by how deep the
 // splat itself is: one that faces the eye has neighbors about as deep as it. Near a silhouette the surface bends away within the filter's
-// reach, and is EDGE_LENGTHENING / 2 times as deep as if it were flat; of a surface with sharp edges SHARP_LENGTHENING / 2 times. More would let what lies behind a surface that is
-// seen at a slant, and does not end there, through it (benches/README.md, "Edges"). Not so in layers: the far side of a ball would be in one layer with the near one, far from its rim, and their
+// reach, and is EDGE_LENGTHENING / 2 times as deep as if it were flat; of a surface with sharp edges SHARP_LENGTHENING / 2 times. With more, what lies behind a surface that is
+// seen at a slant, and does not end there, would show through it (benches/README.md, "Edges"). Not so in layers: the far side of a ball would be in one layer with the near one, far from its rim, and their
 // normals cancel.
 const float MOST_LENGTHENED = 16.0;
 
-// Opaque splats without sharp edges count longer, for their epsilon grows less with it: with all of EDGE_LENGTHENING it is 256 radii at most, as that of sharp ones. In a ball of
-// half a million splats that is some pixels large, it is.
+// Opaque splats without sharp edges count longer, for their epsilon grows less with it: with all of EDGE_LENGTHENING it is 256 radii at most, as that of sharp ones. A ball of
+// half a million splats that is some pixels large needs as much.
 const float MOST_SLOPED = 52.0;
 
 layout(constant_id = SPEC_SHARP) const bool SHARP = false; // and edges are covered in part
