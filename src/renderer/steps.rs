@@ -1,6 +1,6 @@
 //! A frame in steps, for drivers that compile a pipeline when it first runs, as those of CPUs do: a host goes on between.
 
-use std::{cell::RefCell, collections::HashSet};
+use std::cell::Cell;
 
 use ash::vk;
 
@@ -12,23 +12,25 @@ use crate::{
         Graph,
         execute::{Body, Part, Runs},
     },
-    passes::MissingPipelines,
+    passes::{MissingPipelines, Shaders},
 };
 
 /// A step ends with the pass in which so many pipelines have run that never did before. Where a driver has each of them on disk, a step more costs some milliseconds.
 const NEW_IN_STEP: usize = 3;
 
 /// Counts pipelines that never ran before.
-struct Counter<'a>(RefCell<(&'a mut HashSet<vk::Pipeline>, usize)>);
+struct Counter<'a> {
+    shaders: &'a Shaders,
+    new: Cell<usize>,
+}
 
 impl Runs for Counter<'_> {
     fn runs(&self, pipeline: vk::Pipeline) {
-        let (known, new) = &mut *self.0.borrow_mut();
-        *new += usize::from(known.insert(pipeline));
+        self.new.set(self.new.get() + usize::from(self.shaders.ran().runs(pipeline)));
     }
 
     fn ends(&self) -> bool {
-        self.0.borrow().1 >= NEW_IN_STEP
+        self.new.get() >= NEW_IN_STEP
     }
 }
 
@@ -61,8 +63,7 @@ impl Renderer {
     ) -> Result<FrameStep> {
         let SceneFrame { seen, target, readbacks, profile } = *frame;
         let arena = slot.take_arena();
-        let mut known = self.shaders.ran();
-        let counter = Counter(RefCell::new((&mut known, 0)));
+        let counter = Counter { shaders: &self.shaders, new: Cell::new(0) };
         let record = |execution: Execution<'_>, graph: &Graph<'_, Body<'_>>, imports: &Imports<'_>| {
             let part = Part { first, runs: Some(&counter) };
             // SAFETY: this function's contract.
@@ -75,6 +76,6 @@ impl Renderer {
         // SAFETY: this function's contract.
         let recorded = unsafe { self.declare_in(&arena, slot, seen, (target, readbacks), how, record) };
         slot.give_back(arena);
-        Ok(FrameStep { next: recorded?, new_pipelines: counter.0.into_inner().1 })
+        Ok(FrameStep { next: recorded?, new_pipelines: counter.new.get() })
     }
 }

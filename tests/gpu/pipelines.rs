@@ -82,3 +82,34 @@ fn pipelines_are_made_one_a_turn_ahead_of_a_frame_that_makes_none_then() {
         assert!(turn(&headless, Duration::from_secs(600)), "all in one turn");
     }
 }
+
+/// A device tells what it has drawn with, and another one knows these pipelines of its own frames, from elsewhere, too, but no others.
+#[test]
+fn what_ran_on_another_device_is_known_by_what_it_is_made_of() {
+    let [mut other, own] = [(); 2].map(|()| headless());
+    let hard = with(&scenes::sphere_of_disks(), |settings| settings.rasterizer = Rasterizer::Compute);
+    let scene = own.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let shaders = own.renderer.shaders();
+    let has_run = |hard: &Hard| {
+        let (time, format) = (shaders.time(), vk::Format::R32G32B32A32_SFLOAT);
+        let seen = Seen { scene: &scene, camera: &hard.camera, settings: &hard.settings };
+        assert!(own.renderer.make_pipelines(seen, format, Duration::from_secs(600)).unwrap());
+        shaders.have_run_since(time)
+    };
+    assert!(!has_run(&hard));
+    render_as(&mut other, &hard, PICTURE);
+    let numbers = other.renderer.shaders().numbers();
+    assert_eq!(numbers.len(), count(&other));
+    shaders.ran_elsewhere(&numbers);
+    assert!(has_run(&hard));
+    // Tiles of other heights.
+    let far = at(&hard, 55);
+    assert!(!has_run(&far));
+    render_as(&mut other, &far, PICTURE);
+    shaders.ran_elsewhere(&other.renderer.shaders().numbers());
+    assert!(has_run(&far) && has_run(&hard));
+    // SAFETY: every frame was waited for.
+    unsafe { shaders.keep_newest(0) };
+    assert!(shaders.numbers().is_empty() && has_run(&hard), "what was compiled stays known");
+    assert!(!has_run(&with(&hard, |settings| settings.rasterizer = Rasterizer::Perspective)));
+}

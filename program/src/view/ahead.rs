@@ -13,19 +13,20 @@ use std::{
     thread::JoinHandle,
 };
 
-use kind::{Known, Of};
+use kind::{Kind, Known, Of};
 use surfel::{
     Headless, Result,
-    renderer::Wanted,
+    frame::{FrameSlot, HeadlessTarget},
+    prepare::PreparedScene,
+    renderer::{SceneFrame, Seen},
     scene::{Camera, Scene, Settings},
     vk::{Device, Instance},
 };
 use winit::event_loop::EventLoopProxy;
 
-pub use kind::Kind;
-
 use super::{
     edits::{Edits, some_of},
+    frame_desc::format,
     told::News,
 };
 
@@ -81,6 +82,16 @@ impl Job {
     }
 }
 
+/// What the thread has done of a job.
+pub struct Ran {
+    /// The pictures of the job.
+    kinds: Vec<Kind>,
+    /// So many of them are drawn, the others were left for another job.
+    drawn: usize,
+    /// The pipelines that ran for these, by [`surfel::passes::Shaders::numbers`].
+    pub pipelines: Vec<u64>,
+}
+
 /// The thread, as the window knows it.
 pub struct Ahead {
     jobs: Option<Sender<Job>>,
@@ -107,14 +118,14 @@ impl Ahead {
         Some(Self { jobs: Some(jobs), thread: Some(thread), is_closing, known: Known::default() })
     }
 
-    /// Whether pipelines of the next pictures have run, as far as is known; they are drawn where some of them were made just now: `is_new`.
-    pub fn is_ready(&mut self, job: Job, is_new: bool) -> bool {
+    /// Whether the window is to draw the next pictures though some of their pipelines have run nowhere; else the thread draws them first.
+    pub fn leaves(&mut self, job: Job) -> bool {
         let next = job.kinds(job.next.iter());
         if self.known.wait(&next, job.is_hidden) {
             // A thread that is gone answers nothing any more.
             return self.is_finished();
         }
-        if !(is_new || self.known.are_left(&next)) || self.known.are_drawn(&next) {
+        if self.known.are_drawn(&next) || self.known.is_behind() {
             return true;
         }
         let (all, is_hidden) = (job.all(), job.is_hidden);
@@ -125,14 +136,14 @@ impl Ahead {
         !sent
     }
 
-    /// Other pictures are to be drawn, or the same ones of other sizes, which may have other pipelines.
+    /// Other pictures are to be drawn, or the same ones from elsewhere, which may have other pipelines.
     pub fn begin(&mut self) {
         self.known.begin();
     }
 
-    /// The thread has drawn so many of these, and left the others.
-    pub fn are_done(&mut self, kinds: Vec<Kind>, drawn: usize) {
-        self.known.are_done(kinds, drawn);
+    /// The thread has drawn these.
+    pub fn are_done(&mut self, ran: Ran) {
+        self.known.are_done(ran.kinds, ran.drawn);
     }
 
     /// Nothing more is begun. What is under way is waited for where this is dropped: a driver can't be interrupted while it compiles.
@@ -179,32 +190,47 @@ impl Worker {
                 if self.is_closing.load(Ordering::Acquire) {
                     return;
                 }
-                // What is wrong with it the window tells, which draws it next.
                 let kinds = job.all();
                 let drawn = self.draw(&job, &kinds, || {
                     waiting.extend(jobs.try_iter());
                     job.is_hidden && waiting.iter().any(|other| !other.is_hidden)
                 });
-                let drawn = drawn.unwrap_or(kinds.len());
+                // What is wrong with it the window tells, which draws it next.
+                let (drawn, pipelines) = drawn.unwrap_or((kinds.len(), Vec::new()));
                 // Nobody hears it once the window is closed.
-                let _ = self.proxy.send_event(News::Ran(kinds, drawn));
+                let _ = self.proxy.send_event(News::Ran(Ran { kinds, drawn, pipelines }));
             }
         }
     }
 
     /// Mesa writes what it has compiled by a thread of the least priority. An instance waits for that thread where it is destroyed, so that each job has its own.
-    /// How many pictures are drawn before another job is more urgent, or the window is closed.
-    fn draw(&self, job: &Job, kinds: &[Kind], mut ends: impl FnMut() -> bool) -> Result<usize> {
+    /// How many pictures are drawn before another job is more urgent, or the window is closed; and by which pipelines.
+    fn draw(&self, job: &Job, kinds: &[Kind], mut ends: impl FnMut() -> bool) -> Result<(usize, Vec<u64>)> {
         let device = Device::new(&self.instance.another()?, Some(&self.device))?;
-        let mut headless = Headless::on(device, None)?;
+        let headless = Headless::on(device, None)?;
         let scene = headless.prepare(&job.scene(), &|_, _| {})?;
-        let wanted = Wanted { linear: job.is_light, ..Wanted::PICTURE };
-        for (drawn, kind) in kinds.iter().enumerate() {
+        let mut drawn = 0;
+        for kind in kinds {
             if self.is_closing.load(Ordering::Acquire) || ends() {
-                return Ok(drawn);
+                break;
             }
-            headless.render(&scene, &kind.camera, &kind.settings, wanted)?;
+            draw(&headless, &scene, kind, job.is_light)?;
+            drawn += 1;
         }
-        Ok(kinds.len())
+        Ok((drawn, headless.renderer.shaders().numbers()))
     }
+}
+
+/// Draws a picture to an image of the window's format, for a format has its own pipelines.
+fn draw(headless: &Headless, scene: &PreparedScene, kind: &Kind, is_light: bool) -> Result<()> {
+    let Kind { camera, settings, .. } = kind;
+    // Before any image of that size is made.
+    headless.renderer.check(camera, settings)?;
+    let seen = Seen { scene, camera, settings };
+    let image = HeadlessTarget::new(headless.device(), format(is_light), settings.size_px)?;
+    let (target, mut slot) = (image.target(), FrameSlot::new(headless.device()));
+    headless.queue().run_once("ahead", |commands| {
+        // SAFETY: recording; the slot is new, and `run_once` waits while all of these are alive.
+        unsafe { headless.renderer.record(commands, &mut slot, &SceneFrame::new(seen, &target)) }.map(drop)
+    })
 }

@@ -32,13 +32,18 @@ pub struct Ends {
 impl SceneView<'_> {
     /// Of the picture.
     pub fn format(&self) -> vk::Format {
-        if self.is_light { vk::Format::R16G16B16A16_SFLOAT } else { vk::Format::R8G8B8A8_SRGB }
+        format(self.is_light)
     }
 
     /// The picture is another one after this frame.
     pub fn shows(&self) -> bool {
         self.sample.is_none_or(|ends| ends.last)
     }
+}
+
+/// The format of pictures, of light or of colors.
+pub fn format(is_light: bool) -> vk::Format {
+    if is_light { vk::Format::R16G16B16A16_SFLOAT } else { vk::Format::R8G8B8A8_SRGB }
 }
 
 /// A frame to draw.

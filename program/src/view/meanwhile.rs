@@ -5,12 +5,11 @@ use std::sync::Arc;
 use surfel::{
     Result,
     prepare::PreparedScene,
-    scene::{Camera, Encoding, Settings},
+    scene::{Camera, Encoding, Scene, Settings},
 };
 
 use super::{
-    ahead::Job, document::Document, edits::Edits, on_device::OnDevice, picture::Use, steps::Choice,
-    told::Step, viewer::Viewer,
+    ahead::Job, edits::Edits, on_device::OnDevice, picture::Use, steps::Choice, told::Step, viewer::Viewer,
 };
 
 /// What was drawn last.
@@ -45,10 +44,9 @@ impl Viewer {
         self.changed();
     }
 
-    /// Which files are the newest that were read, and what is to be changed of them.
-    fn newest(&self) -> Option<(usize, Edits)> {
-        let document = self.document.as_ref()?;
-        Some((Arc::as_ptr(&document.scene).addr(), self.edits.clone()))
+    /// The files that were read last, and what is to be changed of them.
+    fn newest(&self) -> Option<(Arc<Scene>, Edits)> {
+        Some((Arc::clone(&self.document.as_ref()?.scene), self.edits.clone()))
     }
 
     /// Whether what is on the device can be drawn so. It may be older than what the settings were chosen for: what was transparent until now has no eye-dome lighting.
@@ -85,35 +83,46 @@ impl Viewer {
         let prepared = coming.or(self.prepared.as_ref());
         let scene = prepared.map(OnDevice::scene).or(self.warm.as_ref());
         let views = scene.map_or(Vec::new(), |scene| choice.views(scene));
-        let made = || self.gpu.headless.renderer.shaders().made();
-        let before = made();
+        let time = self.gpu.headless.renderer.shaders().time();
         let are_made = self.gpu.make_pipelines(&views)?;
-        let is_new = made() != before;
         if !are_made {
             self.window.request_redraw();
         }
-        // Another device could draw the scene that comes, but not the one before, which the window goes on with.
-        if coming.is_none() && self.prepared_of != self.newest() {
+        if self.ahead.is_none() || self.gpu.headless.renderer.shaders().have_run_since(time) {
             return Ok(are_made);
         }
+        // The window goes on with the scene before until the one that comes is there.
+        let of = if coming.is_some() { self.newest() } else { self.prepared_of.clone() };
         let pictures = choice.camera.map(|camera| self.next_and_soon(choice, camera, whole));
         // The first picture has nothing to go on with. Pages are another view's when they are there.
-        let (Some(ahead), Some(_), Some(document), Some(OnDevice::Whole(_, step)), Some([next, soon])) =
-            (&mut self.ahead, &self.drawn, &self.document, prepared, pictures)
+        let (Some(ahead), Some(_), Some((scene, edits)), Some(OnDevice::Whole(_, step)), Some([next, soon])) =
+            (&mut self.ahead, &self.drawn, of, prepared, pictures)
         else {
             return Ok(are_made);
         };
-        let Document { scene, .. } = document;
         let job = Job {
-            scene: Arc::clone(scene),
-            edits: self.edits.clone(),
             has_levels: *step == Step::Leveled && !scene.has_levels(),
+            scene,
+            edits,
             is_light: !self.encoding.is_plain(),
             next,
             soon,
             is_hidden: choice.hidden.is_some(),
         };
-        Ok(ahead.is_ready(job, is_new) && are_made)
+        Ok(ahead.leaves(job) && are_made)
+    }
+
+    /// Whether this can be drawn at once: its pipelines are there, and have run where a driver compiles them then.
+    ///
+    /// # Errors
+    /// As [`surfel::Renderer::make_pipelines`].
+    pub fn is_at_hand(&self, choice: &Choice) -> Result<bool> {
+        let Some(scene) = self.prepared.as_ref().map(OnDevice::scene).filter(|_| self.ahead.is_some()) else {
+            return Ok(true);
+        };
+        let shaders = self.gpu.headless.renderer.shaders();
+        let time = shaders.time();
+        Ok(self.gpu.make_pipelines(&choice.views(scene))? && shaders.have_run_since(time))
     }
 
     /// The pictures of a choice, and what may be drawn soon after them: all of the picture and a moving one; of those that nobody sees the others that come with them.

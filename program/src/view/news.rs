@@ -55,9 +55,10 @@ impl Viewer {
                 self.end_saving();
                 Ok(())
             }
-            News::Ran(kinds, drawn) => {
+            News::Ran(ran) => {
+                self.gpu.headless.renderer.shaders().ran_elsewhere(&ran.pipelines);
                 if let Some(ahead) = &mut self.ahead {
-                    ahead.are_done(kinds, drawn);
+                    ahead.are_done(ran);
                 }
                 self.window.request_redraw();
                 Ok(())

@@ -166,7 +166,9 @@ impl Viewer {
             self.is_unsure = !self.has_pipelines(&choice, &whole, None)?;
             if self.is_unsure {
                 choice.pictures = Vec::new();
-                if let Some(before) = self.as_before() {
+                if let Some(before) = self.as_before()
+                    && self.is_at_hand(&before)?
+                {
                     choice = before;
                 }
             }

@@ -4,7 +4,7 @@ use std::sync::mpsc::SyncSender;
 
 use surfel::{Error, Result, prepare::PreparedScene, vk::Staging};
 
-use super::{ahead::Kind, document::Document};
+use super::{ahead::Ran, document::Document};
 
 /// What a thread tells the window.
 pub enum News {
@@ -16,8 +16,8 @@ pub enum News {
     Upload(Staging, u64, SyncSender<Result<()>>),
     /// A picture is written, or not.
     Written,
-    /// Pipelines of so many of these pictures have run on another device, the others were left.
-    Ran(Vec<Kind>, usize),
+    /// Another device has drawn pictures.
+    Ran(Ran),
     /// Shaders were compiled anew, so many; or what is wrong with them.
     #[cfg(feature = "live-shaders")]
     Shaders(std::result::Result<usize, String>),

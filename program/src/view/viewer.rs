@@ -6,7 +6,7 @@ use glam::DVec3;
 use surfel::{
     instruments::Counting,
     prepare::PreparedScene,
-    scene::{Encoding, Samples, Settings},
+    scene::{Encoding, Samples, Scene, Settings},
 };
 use winit::window::Window;
 
@@ -57,8 +57,8 @@ pub struct Viewer {
     pub document: Option<Document>,
     /// The scene on the device.
     pub prepared: Option<OnDevice>,
-    /// Of which files it is, by where their scene was in memory, and with which changes.
-    pub prepared_of: Option<(usize, Edits)>,
+    /// The files that it is of, and what is changed of them.
+    pub prepared_of: Option<(Arc<Scene>, Edits)>,
     /// Another one, for which pipelines are made.
     pub coming: Option<OnDevice>,
     /// What is drawn before there is a scene, and not shown.

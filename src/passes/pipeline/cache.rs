@@ -2,9 +2,9 @@
 
 mod kept;
 mod missing;
+mod ran;
 
 use std::{
-    collections::HashSet,
     path::Path,
     sync::{
         Arc, Mutex,
@@ -35,6 +35,7 @@ use crate::{
 };
 
 pub use missing::MissingPipelines;
+use ran::{Ran, number_of_compute, number_of_graphics};
 
 /// Bindings of set 1 of the splat passes.
 const LIST_BINDINGS: u32 = BIND_LIST_BLOCKS + 1;
@@ -55,7 +56,7 @@ pub struct Shaders {
     asked: AtomicU64,
     /// How many were made.
     made: AtomicU64,
-    ran: Mutex<HashSet<vk::Pipeline>>,
+    ran: Mutex<Ran>,
     cache: PipelineCache,
     stand_ins: Arc<StandIns>,
     /// Set 0 of the splat passes.
@@ -249,7 +250,9 @@ impl Shaders {
                 layout: self.layout(key.layout)?,
             };
             // SAFETY: shaders of `glsl/` with their own layouts, on a device that has what they need; keys have formats that it draws into.
-            unsafe { GraphicsPipeline::new(&self.device, &self.cache, &desc) }
+            let pipeline = unsafe { GraphicsPipeline::new(&self.device, &self.cache, &desc) }?;
+            self.ran().made(pipeline.raw(), number_of_graphics(key));
+            Ok(pipeline)
         })
     }
 
@@ -269,7 +272,9 @@ impl Shaders {
                 layout: self.layout(key.layout)?,
             };
             // SAFETY: as above.
-            unsafe { ComputePipeline::new(&self.device, &self.cache, &desc) }
+            let pipeline = unsafe { ComputePipeline::new(&self.device, &self.cache, &desc) }?;
+            self.ran().made(pipeline.raw(), number_of_compute(key));
+            Ok(pipeline)
         })
     }
 

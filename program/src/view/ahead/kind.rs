@@ -37,11 +37,6 @@ impl Of {
 }
 
 impl Kind {
-    /// Whether they differ in their cameras at most.
-    fn is_seen_as(&self, other: &Self) -> bool {
-        (&self.settings, &self.of) == (&other.settings, &other.of)
-    }
-
     /// Whether they differ in cameras and sizes at most, of pictures and of splats that are drawn as one.
     fn is_like(&self, other: &Self) -> bool {
         let of = |settings: &Settings| Settings { size_px: [0; 2], lod: Lod::Auto, ..settings.clone() };
@@ -49,23 +44,24 @@ impl Kind {
     }
 }
 
+/// So many jobs are drawn for pictures that go on changing before the window draws what there is.
+const MOST_JOBS: usize = 4;
+
 /// Which pictures the thread draws, and which it has drawn.
 #[derive(Default)]
 pub struct Known {
     /// Those to come, and whether nobody sees them in the window either.
     waiting: Vec<(Kind, bool)>,
-    /// Those of the newest jobs that are drawn, and since when they were asked for.
-    drawn: Vec<(Kind, u64)>,
-    /// Those that it has left for others.
-    left: Vec<Kind>,
-    /// How often pictures were asked for that may have other pipelines.
-    turn: u64,
+    /// Those of the newest jobs that are drawn.
+    drawn: Vec<Kind>,
+    /// How many jobs are drawn since pictures were asked for that the window has not drawn since.
+    jobs: usize,
 }
 
 impl Known {
     /// Other pictures are to be drawn, or the same ones of other sizes or from elsewhere, which may have other pipelines.
     pub fn begin(&mut self) {
-        self.turn += 1;
+        self.jobs = 0;
     }
 
     /// Whether one of these waits. Of pictures that are shown those of all sizes wait for each other: a hand moves meanwhile, and its pictures grow and shrink. For those that nobody sees no hand waits.
@@ -80,34 +76,28 @@ impl Known {
         pictures.iter().any(waits)
     }
 
-    /// Whether all of these are drawn, from there; in the same turn from wherever it was, for a hand moves on.
+    /// Whether all of these are drawn, from there: what other device has drawn them by other pipelines can do no more.
     pub fn are_drawn(&self, pictures: &[Kind]) -> bool {
-        let is_drawn = |own: &Kind| {
-            let is_it = |(kind, turn): &(Kind, u64)| {
-                kind.is_seen_as(own) && (kind.camera == own.camera || *turn == self.turn)
-            };
-            self.drawn.iter().any(is_it)
-        };
-        pictures.iter().all(is_drawn)
+        pictures.iter().all(|own| self.drawn.contains(own))
     }
 
-    /// Whether one of these was left for others, wherever it was seen from.
-    pub fn are_left(&self, pictures: &[Kind]) -> bool {
-        pictures.iter().any(|own| self.left.iter().any(|left| left.is_seen_as(own)))
+    /// Whether a hand moves on faster than the thread draws.
+    pub fn is_behind(&self) -> bool {
+        self.jobs >= MOST_JOBS
     }
 
     /// These are to come.
     pub fn ask(&mut self, pictures: Vec<Kind>, is_hidden: bool) {
         self.drawn.clear();
-        self.left.clear();
         self.waiting.extend(pictures.into_iter().map(|kind| (kind, is_hidden)));
     }
 
     /// Of pictures that were asked for so many are drawn, and the others left.
     pub fn are_done(&mut self, mut pictures: Vec<Kind>, drawn: usize) {
         self.waiting.retain(|(waiting, _)| !pictures.contains(waiting));
-        self.left = pictures.split_off(drawn.min(pictures.len()));
-        self.drawn.extend(pictures.into_iter().map(|kind| (kind, self.turn)));
+        self.jobs += usize::from(drawn >= pictures.len());
+        pictures.truncate(drawn);
+        self.drawn.extend(pictures);
     }
 }
 
@@ -143,22 +133,25 @@ mod tests {
         assert!(!known.wait(from_ref(&coarse), false) && !known.wait(from_ref(&whole), true));
         // Something else was asked for meanwhile.
         known.are_done(vec![coarse.clone(), near.clone()], 1);
-        assert!(known.are_drawn(from_ref(&coarse)) && !known.are_left(from_ref(&coarse)));
-        assert!(known.are_left(from_ref(&near)) && !known.wait(from_ref(&near), true));
-        known.ask(vec![near.clone()], true);
-        assert!(!known.are_left(from_ref(&near)));
+        assert!(known.are_drawn(from_ref(&coarse)) && !known.are_drawn(from_ref(&near)));
+        assert!(!known.wait(from_ref(&near), true));
     }
 
     #[test]
-    fn what_was_drawn_from_elsewhere_is_drawn_again() {
+    fn a_hand_that_moves_on_is_followed_for_some_jobs() {
         let whole = kind(100, false);
-        let near = Kind { camera: Camera { eye: DVec3::X, ..whole.camera }, ..whole.clone() };
         let mut known = Known::default();
-        known.ask(vec![whole.clone()], false);
-        known.are_done(vec![whole.clone()], 1);
-        // A hand that moves on while the window makes its own.
-        assert!(known.are_drawn(from_ref(&near)));
+        for _ in 0..MOST_JOBS {
+            assert!(!known.is_behind());
+            known.ask(vec![whole.clone()], false);
+            // What was left for another job does not count.
+            known.are_done(vec![whole.clone()], 0);
+            assert!(!known.is_behind() && !known.are_drawn(from_ref(&whole)));
+            known.ask(vec![whole.clone()], false);
+            known.are_done(vec![whole.clone()], 1);
+        }
+        assert!(known.is_behind());
         known.begin();
-        assert!(known.are_drawn(from_ref(&whole)) && !known.are_drawn(from_ref(&near)));
+        assert!(!known.is_behind() && known.are_drawn(from_ref(&whole)));
     }
 }

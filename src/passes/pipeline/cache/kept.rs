@@ -1,11 +1,6 @@
 //! Which pipelines there are, which may be made, and which of them stay.
 
-use std::{
-    collections::HashSet,
-    sync::{MutexGuard, PoisonError, atomic::Ordering},
-};
-
-use ash::vk;
+use std::sync::atomic::Ordering;
 
 use super::{super::made::first_to_stay, MissingPipelines, Shaders};
 use crate::error::{ErrorKind, Result};
@@ -53,14 +48,7 @@ impl Shaders {
         let first = first_to_stay(times, most);
         let mut dropped = self.graphics.drop_before(first);
         dropped.extend(self.compute.drop_before(first));
-        // Others may get their handles.
-        let mut ran = self.ran();
-        ran.retain(|pipeline| !dropped.contains(pipeline));
+        self.ran().dropped(&dropped);
         dropped.len()
-    }
-
-    /// The pipelines that ran in a step of a frame.
-    pub(crate) fn ran(&self) -> MutexGuard<'_, HashSet<vk::Pipeline>> {
-        self.ran.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
