@@ -23,6 +23,7 @@ pub use crate::passes::inputs::Inputs;
 pub use crate::passes::pass::{Place, Source};
 pub use crate::passes::pick::{PickPlan, PickRay, Picked, PickedPart};
 pub(crate) use crate::passes::pick::{needs as needs_of_pick, pick};
+pub(crate) use crate::passes::pipeline::cache::Run;
 pub use crate::passes::pipeline::cache::{MissingPipelines, Shaders, room_of_lists};
 pub use crate::passes::pipeline::constants::{
     FinalizeConstants, FrameConstants, HostDepth, HostObject, PaperConstants, TileConstants,

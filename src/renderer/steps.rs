@@ -12,7 +12,7 @@ use crate::{
         Graph,
         execute::{Body, Part, Runs},
     },
-    passes::{MissingPipelines, Shaders},
+    passes::{MissingPipelines, Run, Shaders},
 };
 
 /// A step ends with the pass in which so many pipelines have run that never did before. Where a driver has each of them on disk, a step more costs some milliseconds.
@@ -22,11 +22,14 @@ const NEW_IN_STEP: usize = 3;
 struct Counter<'a> {
     shaders: &'a Shaders,
     new: Cell<usize>,
+    unknown: Cell<usize>,
 }
 
 impl Runs for Counter<'_> {
     fn runs(&self, pipeline: vk::Pipeline) {
-        self.new.set(self.new.get() + usize::from(self.shaders.ran().runs(pipeline)));
+        let run = self.shaders.ran().runs(pipeline);
+        self.new.set(self.new.get() + usize::from(run != Run::Again));
+        self.unknown.set(self.unknown.get() + usize::from(run == Run::First));
     }
 
     fn ends(&self) -> bool {
@@ -41,6 +44,8 @@ pub struct FrameStep {
     pub next: Option<usize>,
     /// How many pipelines ran in it that no step had before.
     pub new_pipelines: usize,
+    /// Of these, how many had not run on another device either ([`Shaders::ran_elsewhere`]).
+    pub unknown_pipelines: usize,
 }
 
 impl Renderer {
@@ -63,7 +68,7 @@ impl Renderer {
     ) -> Result<FrameStep> {
         let SceneFrame { seen, target, readbacks, profile } = *frame;
         let arena = slot.take_arena();
-        let counter = Counter { shaders: &self.shaders, new: Cell::new(0) };
+        let counter = Counter { shaders: &self.shaders, new: Cell::new(0), unknown: Cell::new(0) };
         let record = |execution: Execution<'_>, graph: &Graph<'_, Body<'_>>, imports: &Imports<'_>| {
             let part = Part { first, runs: Some(&counter) };
             // SAFETY: this function's contract.
@@ -76,6 +81,10 @@ impl Renderer {
         // SAFETY: this function's contract.
         let recorded = unsafe { self.declare_in(&arena, slot, seen, (target, readbacks), how, record) };
         slot.give_back(arena);
-        Ok(FrameStep { next: recorded?, new_pipelines: counter.new.get() })
+        Ok(FrameStep {
+            next: recorded?,
+            new_pipelines: counter.new.get(),
+            unknown_pipelines: counter.unknown.get(),
+        })
     }
 }

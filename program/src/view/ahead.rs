@@ -17,9 +17,8 @@ use kind::{Kind, Known, Of};
 use surfel::{
     Headless, Result,
     frame::{FrameSlot, HeadlessTarget},
-    prepare::PreparedScene,
     renderer::{SceneFrame, Seen},
-    scene::{Camera, Scene, Settings},
+    scene::{Camera, Scene, Settings, TileMemory},
     vk::{Device, Instance},
 };
 use winit::event_loop::EventLoopProxy;
@@ -31,8 +30,9 @@ use super::{
 };
 
 /// Of a scene with more splats so many are drawn: half of them, where the others face away, are more than one dispatch takes of a tile, which is another pipeline's beyond, as of the scene itself. They keep
-/// their size, by which tiles are as high as for all of them.
+/// their size, by which tiles are as high as for all of them, and have all the memory that lists want: bands of few splats would have none beyond.
 const MOST_SPLATS: usize = 600_000;
+const MOST_MEMORY: TileMemory = TileMemory::Most(1 << 40);
 
 /// Pictures, one after the other.
 pub struct Job {
@@ -208,13 +208,18 @@ impl Worker {
     fn draw(&self, job: &Job, kinds: &[Kind], mut ends: impl FnMut() -> bool) -> Result<(usize, Vec<u64>)> {
         let device = Device::new(&self.instance.another()?, Some(&self.device))?;
         let headless = Headless::on(device, None)?;
-        let scene = headless.prepare(&job.scene(), &|_, _| {})?;
+        let some = job.scene();
+        let tile_memory = (some.splat_count() < job.scene.splat_count()).then_some(MOST_MEMORY);
+        let scene = headless.prepare(&some, &|_, _| {})?;
+        drop(some);
         let mut drawn = 0;
         for kind in kinds {
             if self.is_closing.load(Ordering::Acquire) || ends() {
                 break;
             }
-            draw(&headless, &scene, kind, job.is_light)?;
+            let tile_memory = tile_memory.unwrap_or(kind.settings.tile_memory);
+            let settings = Settings { tile_memory, ..kind.settings.clone() };
+            draw(&headless, Seen { scene: &scene, camera: &kind.camera, settings: &settings }, job.is_light)?;
             drawn += 1;
         }
         Ok((drawn, headless.renderer.shaders().numbers()))
@@ -222,12 +227,10 @@ impl Worker {
 }
 
 /// Draws a picture to an image of the window's format, for a format has its own pipelines.
-fn draw(headless: &Headless, scene: &PreparedScene, kind: &Kind, is_light: bool) -> Result<()> {
-    let Kind { camera, settings, .. } = kind;
+fn draw(headless: &Headless, seen: Seen<'_>, is_light: bool) -> Result<()> {
     // Before any image of that size is made.
-    headless.renderer.check(camera, settings)?;
-    let seen = Seen { scene, camera, settings };
-    let image = HeadlessTarget::new(headless.device(), format(is_light), settings.size_px)?;
+    headless.renderer.check(seen.camera, seen.settings)?;
+    let image = HeadlessTarget::new(headless.device(), format(is_light), seen.settings.size_px)?;
     let (target, mut slot) = (image.target(), FrameSlot::new(headless.device()));
     headless.queue().run_once("ahead", |commands| {
         // SAFETY: recording; the slot is new, and `run_once` waits while all of these are alive.

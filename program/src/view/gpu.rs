@@ -158,7 +158,7 @@ impl Gpu {
         // SAFETY: the frame's submission before was waited for.
         let commands = unsafe { frame.commands.begin() }?;
         let made = self.headless.renderer.shaders().made();
-        let mut compiles = false;
+        let (mut compiles, mut unknown) = (false, 0);
         let mut steps = Vec::new();
         self.finished = 0;
         for (which, view) in desc.views {
@@ -174,6 +174,7 @@ impl Gpu {
             let step = unsafe { self.headless.renderer.record_step(commands, slot.slot(), &drawn, first) }?;
             slot.recorded(view, step.next);
             compiles |= step.new_pipelines > 0;
+            unknown += step.unknown_pipelines;
             steps.push(first > 0 || step.next.is_some());
             if step.next.is_some() {
                 break;
@@ -220,7 +221,8 @@ impl Gpu {
                 _ => desc.what,
             };
             let size_px = view.seen.settings.size_px;
-            slot.submitted(epoch, Begun { at: begun, input: desc.input, what, size_px, compiles, is_step });
+            let input = desc.input;
+            slot.submitted(epoch, Begun { at: begun, input, what, size_px, compiles, unknown, is_step });
         }
         self.number = (self.number + 1) % IN_FLIGHT;
         // Not while those of a picture are made, of which the first are the oldest.

@@ -266,9 +266,9 @@ impl Picture {
             let span_secs = profile.span_secs.filter(|_| !begun.is_step);
             let secs = span_secs.unwrap_or_else(|| begun.at.elapsed().as_secs_f64());
             let since_input = begun.input.map(|input| input.elapsed());
-            let Begun { size_px, what, compiles, .. } = begun;
+            let Begun { size_px, what, compiles, unknown, .. } = begun;
             let profile = if begun.is_step { FrameProfile::default() } else { profile };
-            self.costs.push(Cost { secs, profile, size_px, compiles, what, since_input });
+            self.costs.push(Cost { secs, profile, size_px, compiles, unknown, what, since_input });
         }
         Ok(all)
     }

@@ -1,6 +1,6 @@
 //! What `--print-frames` prints.
 
-use surfel::vk::Device;
+use surfel::{notes::counted, vk::Device};
 
 use super::picture::Cost;
 use crate::allocator;
@@ -11,7 +11,11 @@ pub fn frame(cost: &Cost) -> String {
     let since = cost.since_input.map_or(String::new(), |since| {
         format!(", its end seen {:.1} ms after its input", 1e3 * since.as_secs_f64())
     });
-    format!("{what} {width}x{height}: {:.1} ms on the device{since}", 1e3 * cost.secs)
+    let first = match cost.unknown {
+        0 => String::new(),
+        count => format!(" with {} for the first time", counted(count as u64, "pipelines")),
+    };
+    format!("{what} {width}x{height}{first}: {:.1} ms on the device{since}", 1e3 * cost.secs)
 }
 
 /// What is in use of memory, when the window rests.

@@ -93,8 +93,8 @@ fn pipelines_that_never_ran_are_compiled_step_by_step_and_what_changes_meanwhile
     view.end();
 }
 
-/// The longest of the frames that draw a plane for the first time, in milliseconds on the device, where Mesa keeps what it has compiled in a new folder, or nowhere; and the first of these frames.
-fn longest_of_a_plane(has_cache: bool) -> (f64, String) {
+/// The frames that draw a plane for the first time, where Mesa keeps what it has compiled in a new folder, or nowhere. The hand does something `meanwhile`.
+fn since_a_plane(has_cache: bool, meanwhile: impl Fn(&Screen)) -> String {
     let (screen, folder) = (Screen::new(), Folder::new());
     folder.splats("a.ply", 20_000);
     let words = [&["a.ply", "--size", "320x240", "--samples", "1"], &CAMERA[..]].concat();
@@ -109,14 +109,19 @@ fn longest_of_a_plane(has_cache: bool) -> (f64, String) {
     view.wait("the first picture is told", |view| frames(&view.printed(), 0).contains(&"whole"));
     let printed_before = view.printed().len();
     screen.key("X");
-    screen.drag([160, 120], [210, 100], 1);
+    meanwhile(&screen);
     view.wait("the plane is drawn", |view| {
         let printed = view.printed();
         let frames = frames(&printed, printed_before);
         let step = frames.iter().position(|what| *what == "step");
         step.is_some_and(|step| frames[step..].contains(&"whole"))
     });
-    let since = view.end().stdout[printed_before..].to_owned();
+    view.end().stdout[printed_before..].to_owned()
+}
+
+/// The longest of them, in milliseconds on the device, and the first.
+fn longest_of_a_plane(has_cache: bool) -> (f64, String) {
+    let since = since_a_plane(has_cache, |screen| screen.drag([160, 120], [210, 100], 1));
     let ms = |line: &str| line.split_once(" ms on the device")?.0.rsplit(' ').next()?.parse::<f64>().ok();
     let longest = since.lines().filter_map(ms).fold(0.0, f64::max);
     (longest, frames(&since, 0)[0].to_owned())
@@ -128,6 +133,17 @@ fn what_a_driver_compiles_holds_up_no_frame_where_it_keeps_it_on_disk() {
     let [(with, first), (without, _)] = [true, false].map(longest_of_a_plane);
     assert!(first != "step", "the camera has moved first, and the plane is still to come");
     assert!(3.0 * with < without, "{with} and {without} ms");
+}
+
+/// What the other device was asked for was seen from afar, and takes other pipelines.
+#[test]
+fn a_hand_that_comes_nearer_meanwhile_waits_for_its_own_pipelines() {
+    let since = since_a_plane(true, |screen| {
+        screen.drive(&["mousemove", "160", "120"]);
+        screen.drive(&["click", "--repeat", "14", "--delay", "60", "4"]);
+    });
+    let steps: Vec<&str> = since.lines().filter(|line| line.starts_with("step ")).collect();
+    assert!(!steps.is_empty() && !since.contains("for the first time"), "{since}");
 }
 
 /// The file is standard input, of which nothing comes before the window has drawn what it draws for its pipelines.

@@ -35,6 +35,7 @@ use crate::{
 };
 
 pub use missing::MissingPipelines;
+pub(crate) use ran::Run;
 use ran::{Ran, number_of_compute, number_of_graphics};
 
 /// Bindings of set 1 of the splat passes.

@@ -17,6 +17,8 @@ pub struct Begun {
     pub size_px: [u32; 2],
     /// Pipelines were made for it, or ran for the first time.
     pub compiles: bool,
+    /// How many had run nowhere before.
+    pub unknown: usize,
     /// It is a step of a picture: its queries are those of several.
     pub is_step: bool,
 }
@@ -31,6 +33,8 @@ pub struct Cost {
     pub size_px: [u32; 2],
     /// Pipelines were made for it, which takes time on some devices' side, too.
     pub compiles: bool,
+    /// How many of these had run nowhere before.
+    pub unknown: usize,
     /// What it was to the picture.
     pub what: &'static str,
     /// From the input that it answers to when its end was seen.

@@ -24,14 +24,25 @@ pub(crate) struct Ran {
     numbers: HashMap<vk::Pipeline, u64>,
 }
 
+/// Whether a pipeline has run before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Run {
+    /// It has.
+    Again,
+    /// Elsewhere, or here before it was given up.
+    FirstHere,
+    /// Nowhere, as far as is known.
+    First,
+}
+
 impl Ran {
-    /// It runs in a step that is being recorded; whether it never did before.
-    pub fn runs(&mut self, pipeline: vk::Pipeline) -> bool {
-        let is_new = self.here.insert(pipeline);
-        if is_new {
-            self.compiled.extend(self.numbers.get(&pipeline));
+    /// It runs in a step that is being recorded.
+    pub fn runs(&mut self, pipeline: vk::Pipeline) -> Run {
+        if !self.here.insert(pipeline) {
+            return Run::Again;
         }
-        is_new
+        let is_first = self.numbers.get(&pipeline).is_none_or(|number| self.compiled.insert(*number));
+        if is_first { Run::First } else { Run::FirstHere }
     }
 
     pub(super) fn made(&mut self, pipeline: vk::Pipeline, number: u64) {
