@@ -61,14 +61,18 @@ const SECOND: Duration = Duration::from_secs(1);
 /// Pictures that nobody sees, drawn once so that their pipelines have run: from three distances, as they move and with all splats. None of pages.
 const HIDDEN: usize = 6;
 
-/// Waits until no frame is shown any more for so long, and until pictures that nobody sees are drawn, for which pipelines may take longer; how many frames were by then.
+/// Waits until no frame is shown any more for so long, and until pictures that nobody sees are drawn, between which another device may compile for seconds; how many frames were by then.
 fn settled(view: &View<'_>, quiet: Duration, hidden: usize) -> usize {
     let begun = Instant::now();
+    let (mut ahead, mut since) = (0, begun);
     loop {
         let before = shown(view);
         thread::sleep(quiet);
-        let ahead = view.printed().lines().filter(|line| line.starts_with("ahead ")).count();
-        if shown(view) == before && ahead >= hidden {
+        let now = view.printed().lines().filter(|line| line.starts_with("ahead ")).count();
+        if now != ahead {
+            (ahead, since) = (now, Instant::now());
+        }
+        if shown(view) == before && ahead >= hidden && (hidden == 0 || since.elapsed() > 3 * SECOND) {
             return before;
         }
         assert!(begun.elapsed() < Duration::from_secs(60), "it never rests");
