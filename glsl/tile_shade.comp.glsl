@@ -85,8 +85,8 @@ void shade_edges(Range range)
     }
     // A shader's loops have an end (tile/work.glsl): there are as many surfaces as it has walks over so many splats.
     uint most = clamp(PART_LENGTH / max(range.end - range.first, 1), 1, MOST_EDGE_SURFACES);
-    all_cover = most == 1;
     for (uint number = 0; number < most; number++) {
+        all_cover = number + 1 == most;
         begin_surface();
         see(range);
         bool left = false;

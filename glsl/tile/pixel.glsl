@@ -167,8 +167,8 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
     bool away = is_away(splat);
-    bool inside = covers(uvw, depth, away, kept, row) && (!BY_SIDES || takes_both_sides || away == visible_away[row]);
-    bool covering = inside;
+    bool covering = covers(uvw, depth, away, kept, row);
+    bool inside = covering && (!BY_SIDES || takes_both_sides || away == visible_away[row]);
     if (WITH_POLYGONS) {
         inside = inside && is_behind_polygons(depth, column.toward, row);
         inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
@@ -193,7 +193,7 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
         // Half of how r^2 changes a pixel, by the map as it is at the splat's center.
         vec2 along = REACHES ? attributes.reach.xy * uvw.xy : uvw.xy;
         vec2 change = splat.uv.xy * along.x + splat.uv.zw * along.y;
-        covering = all_cover ? covering : inside;
+        covering = all_cover ? covering && is_behind_polygons(depth, column.toward, row) : inside;
         float covers = covering ? shared_weight : 0.0;
         float own_ellipse = OUTLINED ? part_of_outline(attributes.outline, splat.uv, AFFINE ? vec3(uvw.xy, 1.0) : uvw) : 0.0;
         cover(covers, covers * kernel_decline(r2) * inverse_w2 * change, covering ? part : 0.0, covering && at_border, covering ? own_ellipse : 0.0, covering ? kept : 1.0, row);

@@ -203,9 +203,9 @@ pub(super) fn covered<'a>(
 
 /// By how much the sum of fragments of splats falls a pixel along x and y.
 pub(super) fn fall<'a>(
-    fragments: &[Translucent],
+    fragments: &[&Translucent],
     splat_of: impl Fn(&Translucent) -> &'a DrawnSplat,
 ) -> DVec2 {
-    let fall = |fragment: &Translucent| Some(splat_of(fragment).covering.as_ref()?.share * fragment.fall);
+    let fall = |fragment: &&Translucent| Some(splat_of(fragment).covering.as_ref()?.share * fragment.fall);
     fragments.iter().filter_map(fall).sum()
 }

@@ -13,8 +13,8 @@ use super::polygons::SampledPolygon;
 use super::splat::DrawnSplat;
 use crate::scene::Transition;
 
-/// The most surfaces of a pixel.
-const MOST_SURFACES: usize = 3;
+/// The most surfaces of a pixel: behind slopes of open things, each of which has two sides, there are four and more.
+const MOST_SURFACES: usize = 6;
 
 /// From this sum on, splats hide polygons of the same surface: at a seam half of a whole surface's splats are there.
 const WHOLE_SEAM_SUM: f64 = 0.4;
@@ -95,7 +95,7 @@ pub(super) fn surfaces(
     let mut left = polygons.to_vec();
     // How what covers the pixel falls toward where it ends.
     let mut ended = DVec2::ZERO;
-    for _ in 0..MOST_SURFACES {
+    for number in 1..=MOST_SURFACES {
         let nearest = fragments.iter().map(|fragment| fragment.z_shifted).fold(f64::INFINITY, f64::min);
         if fragments.is_empty() || seen.alpha >= 1.0 {
             break;
@@ -109,10 +109,13 @@ pub(super) fn surfaces(
         // Both sides of a thin thing are nearer to each other than a slanted splat's ε.
         let (layer, margin) = take_nearest_side(&mut fragments, &|fragment| splat_of(fragment).faces_away);
         seen.margin = seen.margin.min(margin);
+        // Behind the last one nothing is looked for: all that is left covers with it.
+        let rest = if number == MOST_SURFACES { fragments.clone() } else { Vec::new() };
         if group.is_empty() {
-            let Some((color, part)) = summed(frame, ray, &layer, splat_of) else { break };
+            let covering: Vec<&Translucent> = layer.iter().chain(&rest).collect();
+            let Some((color, part)) = summed(frame, ray, (&layer, &covering), splat_of) else { break };
             // What ends toward the same side as what is before it lies behind that, and is seen only where it reaches further.
-            let fall = fall(&layer, splat_of);
+            let fall = fall(&covering, splat_of);
             let longest2 = fall.length_squared().max(ended.length_squared());
             let behind = if longest2 == 0.0 { 0.0 } else { fall.dot(ended).max(0.0) / longest2 };
             ended += (1.0 - behind) * fall;
@@ -131,8 +134,11 @@ pub(super) fn surfaces(
             // Behind the polygons, shifted toward the eye, they are another surface; what is not behind has been seen.
             let (of_surface, others) = layer.into_iter().partition(|fragment| behind(fragment) <= 0.0);
             let (of_surface, others): (Vec<_>, Vec<_>) = (of_surface, others);
-            ended += fall(&of_surface, splat_of);
-            let both = show_seam(&mut seen, frame, ray, &of_surface, (share_of(&group), nearest), splat_of);
+            let too = if number == MOST_SURFACES { &others[..] } else { &[] };
+            let covering: Vec<&Translucent> = of_surface.iter().chain(too).chain(&rest).collect();
+            ended += fall(&covering, splat_of);
+            let seam = (&of_surface[..], &covering[..]);
+            let both = show_seam(&mut seen, frame, ray, seam, (share_of(&group), nearest), splat_of);
             seen.add_polygons(frame, both, &group);
             if seen.alpha < 1.0 {
                 for fragment in &fragments {
@@ -155,16 +161,16 @@ pub(super) fn surfaces(
     seen
 }
 
-/// The color of a surface of splats, and the part that it covers; `None` where nothing is there.
+/// The color of a surface of splats, and the part that it covers, with all that is `covering`; `None` where nothing is there.
 fn summed<'a>(
     frame: &Frame,
     ray: DVec3,
-    of_surface: &[Translucent],
+    (of_surface, covering): (&[Translucent], &[&Translucent]),
     splat_of: impl Fn(&Translucent) -> &'a DrawnSplat,
 ) -> Option<(DVec3, f64)> {
     let sums = sums(of_surface, &splat_of);
     let color = sums.color(&frame.shader, ray)?;
-    let part = covered(&of_surface.iter().collect::<Vec<_>>(), splat_of);
+    let part = covered(covering, splat_of);
     Some((color, part))
 }
 
@@ -173,12 +179,12 @@ fn show_seam<'a>(
     seen: &mut Opaque,
     frame: &Frame,
     ray: DVec3,
-    of_surface: &[Translucent],
+    (of_surface, covering): (&[Translucent], &[&Translucent]),
     (share, depth): (f64, f64),
     splat_of: impl Fn(&Translucent) -> &'a DrawnSplat,
 ) -> f64 {
     let weight = sums(of_surface, &splat_of).weight();
-    let Some((color, part)) = summed(frame, ray, of_surface, splat_of) else { return share };
+    let Some((color, part)) = summed(frame, ray, (of_surface, covering), splat_of) else { return share };
     let both = part.max(share);
     let of_splats = match frame.settings.transition {
         Transition::None => 0.0,

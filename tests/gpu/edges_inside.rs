@@ -5,7 +5,7 @@ use crate::common::{
     scenes::{self, Hard},
     shared, with,
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use surfel::{
     geometry::{
         sharp::{SharpOptions, sharp_splats},
@@ -14,7 +14,7 @@ use surfel::{
     hard_scenes::parts::{bored_block, cylinder},
     load::builtin::relief,
     math::random::SplitMix,
-    scene::{Colors, Edges, Mesh, Object, Points, Rasterizer, Samples, Settings},
+    scene::{Colors, Edges, Mesh, Object, Points, Rasterizer, Samples, Settings, Shapes, Splats},
 };
 
 /// Pixels this far from where the surface ends are inside.
@@ -66,6 +66,37 @@ fn scanned_floor(points: usize) -> Object {
     let colors = Colors::Uniform([0.5, 0.5, 0.5, 1.0]);
     let (splats, _) = splats_from_points(Points { positions, colors, ..Points::default() }, &());
     Object { name: "floor".to_owned(), splats, closed: false }
+}
+
+/// Ground with hills and furrows, which is open: beyond each ridge it faces away, up to the next slope.
+fn hills(points: usize) -> Object {
+    let side = (points as f64).sqrt() as usize;
+    let spacing = 4.0 / side as f64;
+    let height =
+        |x: f64, z: f64| 0.12 * (5.0 * x).sin() * (4.0 * z).cos() + 0.02 * (23.0 * x + 17.0 * z).sin();
+    let at = |x: f64, z: f64| DVec3::new(x, height(x, z), z);
+    let places = (0..side * side).map(|i| [i % side, i / side].map(|k| spacing * (k as f64 + 0.5) - 2.0));
+    let (positions, normals): (Vec<DVec3>, Vec<Vec3>) = places
+        .map(|[x, z]| {
+            let normal = (at(x, z + 1e-4) - at(x, z)).cross(at(x + 1e-4, z) - at(x, z)).normalize();
+            (at(x, z), normal.as_vec3())
+        })
+        .unzip();
+    let radii = vec![1.2 * spacing as f32; positions.len()];
+    let splats =
+        Splats::new(positions, Shapes::Disks { normals, radii }, Colors::Uniform([0.5, 0.5, 0.5, 1.0]));
+    Object { name: "hills".to_owned(), splats, closed: false }
+}
+
+/// Behind a ridge of something open there are its other side, the next slope, and so on: more surfaces than three, after which the background was seen, as white dots along ridges.
+#[test]
+fn ridges_behind_each_other_let_no_light_through() {
+    for (eye, side_px) in [([1.0, 1.0, 4.0], 512), ([1.0, 0.6, 4.0], 512), ([1.0, 1.0, 4.0], 1024)] {
+        let [inside, through] = let_through(hills(160_000), eye, side_px);
+        println!("hills from {eye:?}, {side_px} px: {through} of {inside} pixels let light through");
+        assert!(inside > 10_000, "{inside}");
+        assert!(through <= MOST_THROUGH, "{through}");
+    }
 }
 
 /// The bumps of the built-in relief, slanted and as the program shows them, and balls of splats from a part of a pixel to ten large.
