@@ -63,6 +63,16 @@ void put_behind(Polygons polygons, float whole, inout vec4 light, inout float ow
     light += part * vec4(polygons.light, 1.0);
 }
 
+// How surely what falls like one of these ends toward the same side as what falls like the other: by how parallel both are, since the sums of sheets that are seen nearly edge-on
+// fall more steeply than that of one. What falls by less than a half as much does so by chance.
+float part_behind(vec2 a, vec2 b)
+{
+    float a2 = dot(a, a);
+    float b2 = dot(b, b);
+    float parallel = max(dot(a, b), 0.0);
+    return parallel * min(inversesqrt(max(a2 * b2, 1e-24)), SURE_BEHIND / max(max(a2, b2), 1e-12));
+}
+
 // Surface after surface, until each pixel of the tile is covered or nothing is left: what lies side by side in a pixel adds up. But what ends toward the
 // same side as what is before it lies behind that, as the far side of a plate does, and is seen only where it reaches further.
 void shade_edges(Range range)
@@ -120,8 +130,7 @@ void shade_edges(Range range)
                 opacity = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight / WHOLE_SEAM_SUM), 1.0);
                 opacity *= both;
             }
-            float behind = max(dot(fall[row], ended[row]), 0.0) / max(max(dot(fall[row], fall[row]), dot(ended[row], ended[row])), 1e-12);
-            behind = beside ? 0.0 : behind;
+            float behind = beside ? 0.0 : part_behind(fall[row], ended[row]);
             ended[row] += (1.0 - behind) * fall[row];
             float part = mix(min(opacity, 1.0 - light[row].a), max(opacity - light[row].a, 0.0), behind);
             part = surface.weight > 0.0 ? part : 0.0;

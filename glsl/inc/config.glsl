@@ -262,6 +262,7 @@
 #define LEAST_HALF_FLOAT 5.9604645e-8 // 2^-24, the smallest 16-bit float above 0; kernels end there.
 #define LEAST_SHIFT 1.0e-6            // Of its depth: a splat is shifted by as much at least, where it is shifted at all.
 #define MOST_EDGE_SURFACES 6        // Opaque surfaces behind each other that a pixel shows at their edges, at most.
+#define SURE_BEHIND 2.0             // Over the ratio of what two surfaces fall by: what ends as the one before it does is behind that (`tile_shade.comp.glsl`).
 #define EDGE_LENGTHENING 4.0        // Of a slanted splat's epsilon where edges are covered in part (`inc/mapping.glsl`).
 #define SHARP_LENGTHENING 16.0      // The same of a surface with sharp edges.
 #define SHARP_SUM 1.35              // Of a sharp surface, whose sums vary: what weights over the overlap are multiplied by (`inc/edges.glsl`).

@@ -116,8 +116,7 @@ pub(super) fn surfaces(
             let Some((color, part)) = summed(frame, ray, (&layer, &covering), splat_of) else { break };
             // What ends toward the same side as what is before it lies behind that, and is seen only where it reaches further.
             let fall = fall(&covering, splat_of);
-            let longest2 = fall.length_squared().max(ended.length_squared());
-            let behind = if longest2 == 0.0 { 0.0 } else { fall.dot(ended).max(0.0) / longest2 };
+            let behind = part_behind(fall, ended);
             ended += (1.0 - behind) * fall;
             let part = (1.0 - behind) * part.min(1.0 - seen.alpha) + behind * (part - seen.alpha).max(0.0);
             seen.add(part, color, nearest);
@@ -159,6 +158,15 @@ pub(super) fn surfaces(
     seen.add_polygons(frame, share, &left);
     seen.hides_beyond = middle.map_or(seen.hides_beyond, |middle| seen.hides_beyond.min(middle.z));
     seen
+}
+
+/// How surely what falls by `a` ends toward the same side as what falls by `b`: the cosine between both, and less where one is shorter than half of the other.
+fn part_behind(a: DVec2, b: DVec2) -> f64 {
+    let [shorter, longer] = [a.length().min(b.length()), a.length().max(b.length())];
+    if shorter == 0.0 {
+        return 0.0;
+    }
+    (a.dot(b) / (shorter * longer)).max(0.0) * (2.0 * shorter / longer).min(1.0)
 }
 
 /// The color of a surface of splats, and the part that it covers, with all that is `covering`; `None` where nothing is there.

@@ -99,6 +99,24 @@ fn ridges_behind_each_other_let_no_light_through() {
     }
 }
 
+/// The outlines of hills are those of several sheets that are seen nearly edge-on: what lies behind another added up with it, to pixels that were whole.
+#[test]
+fn outlines_of_open_ground_are_soft() {
+    let mut headless = shared();
+    let hard = seen_from_afar(hills(160_000), [1.0, 0.3, 4.0], 256);
+    let [seen, truth] = [(Edges::Coverage, 1), (Edges::Hard, 64)].map(|(edges, samples)| {
+        let set = |settings: &mut Settings| (settings.edges, settings.samples) = (edges, Samples(samples));
+        render_as(&mut headless, &with(&hard, set), PICTURE).linear
+    });
+    let off: Vec<f32> = (seen.iter().zip(&truth))
+        .filter(|(_, truth)| (0.02..0.98).contains(&truth[3]))
+        .map(|(seen, truth)| (seen[3] - truth[3]).powi(2))
+        .collect();
+    let rms = (off.iter().sum::<f32>() / off.len() as f32).sqrt();
+    println!("{} pixels at outlines of hills, {rms:.4} RMS off", off.len());
+    assert!(off.len() > 300 && rms < 0.08, "{rms} of {}", off.len());
+}
+
 /// The bumps of the built-in relief, slanted and as the program shows them, and balls of splats from a part of a pixel to ten large.
 #[test]
 fn what_goes_on_lets_no_light_through() {
