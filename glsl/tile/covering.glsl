@@ -9,8 +9,8 @@
 
 const bool OUTLINED = COVERAGE_EDGES && CURVED && !BLENDED && !OF_LAYERS; // their alphas tell how surely surfaces go on
 
-// In tiles with so many splats that nobody looks for further surfaces behind the first, all surfaces cover. One alone has too little there: what lies around a
-// pixel's middle is many epsilons deep. Of what has two sides both count.
+// Behind the last surface that a tile looks for all that is left covers with it, of both sides: else the background would be seen through it. In tiles with so many splats that the first
+// is the last one it would have too little alone: what lies around a pixel's middle is many epsilons deep.
 bool all_cover = false;
 
 float summed[ROWS];       // the sum of weights over the overlap; where that of colors is the same (has_own_sum), nothing
