@@ -141,7 +141,7 @@ pub(crate) fn unused_levels(
     let draws_some = |part: &SurfacePlan<'_>| part.splats.iter().any(|draw| draw.levels.is_some());
     let draws_any = draws_some(&frame.opaque) || draws_some(&frame.transparent);
     (has_levels && settings.tau_px() > 0.0 && !draws_any).then(|| {
-        "--lod has no effect: levels of detail are for --rasterizer auto and compute, and for opaque points; the scene itself is drawn".to_owned()
+        "levels of detail (--lod, --budget) are for --rasterizer auto and compute, and for opaque points; the scene itself is drawn".to_owned()
     })
 }
 
