@@ -14,6 +14,8 @@
 #include "inc/smooth_step.glsl"
 #include "tile/rect.glsl"
 #include "tile/corners.glsl"
+layout(set = 1, binding = BIND_CLIPS, std430) writeonly buffer ClipRecords { vec4 clip_records[]; };
+layout(set = 1, binding = BIND_CLIPS, std430) writeonly buffer ClipWords { uint clip_words[]; }; // the same
 #include "tile/cut.glsl"
 #define PLANES_SET 1
 #define PLANES_BINDING BIND_PLANES
@@ -26,7 +28,6 @@ layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT
 layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
 layout(constant_id = SPEC_PARTED) const uint PARTED_BY = 0;
 const bool BESIDE_CURVES = PARTED_BY == PARTED_CURVES + PARTED_PLANES; // where others have clip curves, it has to be told that there is none
-const uint ALL_CELLS = (1u << CELLS_ALONG * CELLS_ALONG) - 1;
 layout(constant_id = SPEC_LISTED) const bool LISTED = false; // of inc/list.glsl, records of which lie one behind the other
 
 layout(local_size_x = PROJECT_GROUP_SIZE) in;
@@ -34,7 +35,7 @@ layout(set = 1, binding = BIND_RECORDS, std430) writeonly buffer Records0 { vec4
 layout(set = 1, binding = BIND_RECORDS + 1, std430) writeonly buffer Records1 { vec4 records1[]; };
 layout(set = 1, binding = BIND_RECORDS + 2, std430) writeonly buffer Records2 { vec4 records2[]; };
 layout(set = 1, binding = BIND_RECORDS + 3, std430) writeonly buffer Records3 { uvec4 records3[]; };
-layout(set = 1, binding = BIND_CLIPS, std430) writeonly buffer ClipRecords { vec4 clip_records[]; };
+
 layout(set = 1, binding = BIND_RECTS, std430) writeonly buffer Rects { uint rects[]; };
 layout(set = 1, binding = BIND_VISIBLE_STARTS, std430) readonly buffer VisibleStarts { uint visible_starts[]; };
 layout(set = 1, binding = BIND_VISIBLE_LIST, std430) readonly buffer VisibleList { uint visible_list[]; };
@@ -207,21 +208,23 @@ void main()
     records1[place] = uv;
     records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);
     records3[place] = uvec4(floatBitsToUint(normal.yz), color);
+    uint first_vector = CLIP_RECORD_VECTORS * place;
+    uint first_word = 4 * (first_vector + CLIP_VECTORS);
     if (CLIPS) {
         Curve curves[2];
         clip_in_image(index, m, curves);
-        uvec2 cells = cut_cells(curves, rect, vec2(TILE_WIDTH, TILE_HEIGHT));
-        curves[0].b.w = float(cells.x);
-        curves[1].b.w = float(cut_by_planes ? ALL_CELLS : cells.y);
+        write_cells(first_word, curves, map, rect, vec2(TILE_WIDTH, TILE_HEIGHT), cut_by_planes);
         [[unroll]] for (uint i = 0; i < 2; i++) {
-            uint first = CLIP_VECTORS * place + 3 * i;
-            clip_records[first] = curves[i].c;
-            clip_records[first + 1] = curves[i].a;
-            clip_records[first + 2] = curves[i].b;
+            clip_records[first_vector + 3 * i] = curves[i].c;
+            clip_records[first_vector + 3 * i + 1] = curves[i].a;
+            clip_records[first_vector + 3 * i + 2] = curves[i].b;
         }
     } else if (BESIDE_CURVES && cut_by_planes) {
         [[unroll]] for (uint i = 0; i < CLIP_VECTORS; i++) {
-            clip_records[CLIP_VECTORS * place + i] = vec4(0.0, 0.0, 0.0, i % 3 == 2 ? float(ALL_CELLS) : 0.0);
+            clip_records[first_vector + i] = vec4(0.0);
+        }
+        [[unroll]] for (uint row = 0; row < CELLS_ALONG; row++) {
+            clip_words[first_word + row] = ~0u;
         }
     }
 }

@@ -69,24 +69,23 @@ void cut_by_planes(Splat splat, inout float kept[ROWS])
 }
 
 // What curves cut off `at_once` splats, which `own` of invocations from `place` on have loaded.
-void cut_by_curves(uint at_once, Splat own, Splat splats[AT_ONCE], uint place, inout float kept[AT_ONCE][ROWS])
+void cut_by_curves(uint at_once, OwnCurves own, Splat splats[AT_ONCE], uint place, inout float kept[AT_ONCE][ROWS])
 {
-    uint most = most_curves(own, splats);
+    uint most = most_curves(own, splats, at_once, place);
     if (most == 0) {
         return; // where invocations can
     }
     uint number = 0;
     do { // a CPU driver runs a body once more than a condition before it says
-        Curve own_curve = load_curve(own, splats, number);
         [[unroll]] for (uint k = 0; k < at_once; k++) {
-            cut_by(broadcast(own_curve, place + k), kept[k]);
+            cut_by(curve_of(own, splats, number, place + k), kept[k]);
         }
         number++;
     } while (number < most);
 }
 
 // What curves and planes leave of splats if they are `clipped`; 1 where nothing is cut off.
-void find_kept(bool clipped, uint at_once, Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
+void find_kept(bool clipped, uint at_once, OwnCurves own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
 {
     [[unroll]] for (uint k = 0; k < at_once; k++) {
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {

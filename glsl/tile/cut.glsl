@@ -1,15 +1,11 @@
 // Which tiles the curves of a clipped splat cut, found once, when it is projected: in a tile that they leave whole it is listed with splats that
-// nothing cuts, in one of which they leave nothing not at all. By the cells of its rect (tile/rect.glsl).
+// nothing cuts, in one of which they leave nothing, or where the splat itself has no pixel, not at all. By the cells of its rect.
 //
 // C, A and B of a curve (inc/clip.glsl) are linear in the pixel, so that their least and most in a cell are at its corners; those of f follow.
 // COVERAGE_EDGES: pixels look from half a ramp behind them to half a ramp before (tile/clip.glsl). Pixels round by some 2^-23 of what the terms of a
 // line are; what is told here has 8 times that to spare.
 
-// A box of pixels, from the middle of the image.
-struct Cell {
-    vec2 middle_px;
-    vec2 reach_px;
-};
+#include "tile/cells.glsl"
 
 // The least and the most of a line.
 vec2 extremes(vec4 line, Cell cell, vec2 half_ramp)
@@ -46,18 +42,24 @@ bvec2 kept_and_cut(Curve curves[2], Cell cell)
     return is;
 }
 
-// A bit for each cell: in x those where something is left, in y those that curves cut.
-uvec2 cut_cells(Curve curves[2], uint rect, vec2 tile_px)
+// Writes a word for each row of cells: bits of those where something of the splat is left, then of those that curves cut; or all, `cut_by_planes`.
+void write_cells(uint first_word, Curve curves[2], ImageMap map, uint rect, vec2 tile_px, bool cut_by_planes)
 {
+    Ellipse ellipse = ellipse_of(map);
     uvec2 first = first_of(rect);
     uint shift = cell_shift(more_of(rect));
+    uvec2 last = more_of(rect) >> shift;
     vec2 size_px = float(1u << shift) * tile_px;
-    uvec2 bits = uvec2(0);
-    for (uint number = 0; number < CELLS_ALONG * CELLS_ALONG; number++) {
-        uvec2 tile = uvec2(number % CELLS_ALONG, number / CELLS_ALONG) << shift;
-        Cell cell = Cell(vec2(first + tile) * tile_px + 0.5 * size_px - frame.middle_px, 0.5 * size_px - 0.5);
+    uvec2 at = uvec2(0);
+    uint bits = 0;
+    do {
+        Cell cell = Cell(vec2(first + (at << shift)) * tile_px + 0.5 * size_px - frame.middle_px, 0.5 * size_px - 0.5);
         bvec2 is = kept_and_cut(curves, cell);
-        bits |= uvec2(is.x ? 1u << number : 0u, is.y ? 1u << number : 0u);
-    }
-    return bits;
+        bits |= is.x && !is_outside(ellipse, cell) ? 1u << at.x : 0u;
+        bits |= is.y || cut_by_planes ? 1u << CELLS_ALONG + at.x : 0u;
+        clip_words[first_word + at.y] = bits;
+        bool ends = at.x == last.x;
+        at = ends ? uvec2(0, at.y + 1) : uvec2(at.x + 1, at.y);
+        bits = ends ? 0 : bits;
+    } while (at.y <= last.y);
 }

@@ -48,23 +48,42 @@ SplatAttributes broadcast(SplatAttributes own, uint place)
 }
 
 // Of the invocation's own splat.
-Curve load_curve(Splat own, Splat splats[AT_ONCE], uint number)
+struct OwnCurves {
+    uint count;
+    Curve curves[2];
+};
+
+OwnCurves load_curves(Splat own, bool clipped)
 {
-    int first = int(CLIP_VECTORS * own.record + 3 * number);
-    vec4 c = texelFetch(clip_records, first);
-    c.w = is_clipped(own) ? c.w : 0.0;
-    return Curve(c, texelFetch(clip_records, first + 1), texelFetch(clip_records, first + 2));
+    OwnCurves of;
+    of.count = 0;
+    if (CLIPS && clipped) {
+        int first = int(CLIP_RECORD_VECTORS * own.record);
+        [[unroll]] for (int number = 0; number < 2; number++) {
+            of.curves[number] = Curve(texelFetch(clip_records, first + 3 * number), texelFetch(clip_records, first + 3 * number + 1), texelFetch(clip_records, first + 3 * number + 2));
+            of.curves[number].c.w = is_clipped(own) ? of.curves[number].c.w : 0.0;
+        }
+        of.count = !is_clipped(own) ? 0 : of.curves[1].c.w > 0.0 ? 2 : 1;
+    }
+    return of;
 }
 
-Curve broadcast(Curve own, uint place)
+Curve curve_of(OwnCurves own, Splat splats[AT_ONCE], uint number, uint place)
 {
-    return Curve(subgroupShuffle(own.c, place), subgroupShuffle(own.a, place), subgroupShuffle(own.b, place));
+    bool first = number == 0;
+    vec4 c = first ? own.curves[0].c : own.curves[1].c;
+    vec4 a = first ? own.curves[0].a : own.curves[1].a;
+    vec3 b = first ? own.curves[0].b.xyz : own.curves[1].b.xyz;
+    return Curve(subgroupShuffle(c, place), subgroupShuffle(a, place), vec4(subgroupShuffle(b, place), 0.0));
 }
 
-uint most_curves(Splat own, Splat splats[AT_ONCE])
+uint most_curves(OwnCurves own, Splat splats[AT_ONCE], uint at_once, uint place)
 {
-    bool is_second = is_clipped(own) && texelFetch(clip_records, int(CLIP_VECTORS * own.record + 3)).w > 0.0;
-    return subgroupBallot(is_second).x != 0 ? 2 : subgroupBallot(is_clipped(own)).x != 0 ? 1 : 0;
+    uint most = 0;
+    [[unroll]] for (uint k = 0; k < at_once; k++) {
+        most = max(most, subgroupShuffle(own.count, place + k));
+    }
+    return most;
 }
 
 float least_of_tile(float own)

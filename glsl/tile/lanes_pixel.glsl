@@ -55,18 +55,22 @@ SplatAttributes broadcast(SplatAttributes own, uint place)
 }
 
 // Of the splat, from the same place in all invocations.
-Curve load_curve(Splat own, Splat splats[AT_ONCE], uint number)
+struct OwnCurves {
+    bool nothing;
+};
+
+OwnCurves load_curves(Splat own, bool clipped)
 {
-    uint first = CLIP_VECTORS * splats[0].record + 3 * number;
+    return OwnCurves(false);
+}
+
+Curve curve_of(OwnCurves own, Splat splats[AT_ONCE], uint number, uint place)
+{
+    uint first = CLIP_RECORD_VECTORS * splats[0].record + 3 * number;
     return Curve(clip_records[first], clip_records[first + 1], clip_records[first + 2]);
 }
 
-Curve broadcast(Curve own, uint place)
-{
-    return own;
-}
-
-uint most_curves(Splat own, Splat splats[AT_ONCE])
+uint most_curves(OwnCurves own, Splat splats[AT_ONCE], uint at_once, uint place)
 {
     return is_clipped(splats[0]) ? 2 : 0;
 }

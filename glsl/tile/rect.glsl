@@ -46,16 +46,9 @@ uint chunk_of(uint rect)
 }
 
 // A rect has CELLS_ALONG x CELLS_ALONG cells at the most, each of 1, 2, 4 .. tiles a side.
-#define CELLS_ALONG 4
+#define CELLS_ALONG 16
 
 uint cell_shift(uvec2 more)
 {
-    return uint(max(findMSB(max(more.x, more.y)) - 1, 0));
-}
-
-// `tile`: from the rect's first one.
-uint cell_of(uvec2 tile, uint shift)
-{
-    uvec2 cell = tile >> shift;
-    return cell.y * CELLS_ALONG + cell.x;
+    return uint(max(findMSB(max(more.x, more.y)) - 3, 0));
 }

@@ -60,40 +60,81 @@ uint place_of(uint base, uint first)
     return LOADED == TILE_BATCH ? 0 : (base - first) % LOADED;
 }
 
+// Whether what is loaded at once is taken in several steps before more is loaded.
+bool in_steps(bool clipped)
+{
+    return CLIPS && clipped && CLIPPED_BATCH < TILE_BATCH;
+}
+
+void see_batch(Splat own, OwnCurves own_curves, uint batch, uint place, bool clipped)
+{
+    [[unroll]] for (uint first = 0; first < batch; first += AT_ONCE) {
+        Splat splats[AT_ONCE];
+        [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
+            splats[k] = broadcast(own, place + first + k);
+        }
+        float kept[AT_ONCE][ROWS];
+        find_kept(clipped, min(AT_ONCE, batch), own_curves, splats, place + first, kept);
+        [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
+            Column column = column_of(splats[k]);
+            [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+                see(splats[k], column, clipped ? kept[k][row] : 1.0, row);
+            }
+        }
+    }
+}
+
 void see(uint list_first, uint end, bool clipped)
 {
-    uint batch = CLIPS && clipped ? CLIPPED_BATCH : TILE_BATCH;
     Splat own;
+    OwnCurves own_curves;
     uint base = list_first;
     do {
         uint place = place_of(base, list_first);
         if (place == 0) {
             own = load_splat(base, end);
             stage_shared(own);
+            own_curves = load_curves(own, clipped);
         }
-        [[unroll]] for (uint first = 0; first < batch; first += AT_ONCE) {
-            Splat splats[AT_ONCE];
-            [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
-                splats[k] = broadcast(own, place + first + k);
-            }
-            float kept[AT_ONCE][ROWS];
-            find_kept(clipped, min(AT_ONCE, batch), own, splats, place + first, kept);
-            [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
-                Column column = column_of(splats[k]);
-                [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                    see(splats[k], column, clipped ? kept[k][row] : 1.0, row);
-                }
-            }
+        if (!in_steps(clipped)) {
+            see_batch(own, own_curves, TILE_BATCH, place, clipped);
+            base += TILE_BATCH;
+        } else {
+            do {
+                see_batch(own, own_curves, CLIPPED_BATCH, place, clipped);
+                place += CLIPPED_BATCH;
+            } while (place < LOADED && base + place < end);
+            base += LOADED;
         }
-        base += batch;
     } while (base < end);
+}
+
+void sum_batch(Splat own, SplatAttributes own_attributes, OwnCurves own_curves, uint batch, uint place, bool clipped)
+{
+    [[unroll]] for (uint first = 0; first < batch; first += AT_ONCE) {
+        Splat splats[AT_ONCE];
+        SplatAttributes attributes[AT_ONCE];
+        Column columns[AT_ONCE];
+        [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
+            splats[k] = broadcast(own, place + first + k);
+            attributes[k] = broadcast(own_attributes, place + first + k);
+            columns[k] = column_of(splats[k]);
+        }
+        float kept[AT_ONCE][ROWS];
+        find_kept(clipped, min(AT_ONCE, batch), own_curves, splats, place + first, kept);
+        [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+            [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
+                add(splats[k], attributes[k], columns[k], clipped ? kept[k][row] : 1.0, row);
+            }
+        }
+    }
 }
 
 void sum(uint list_first, uint end, bool clipped, bool lit)
 {
-    uint batch = CLIPS && clipped ? CLIPPED_BATCH : TILE_BATCH;
     Splat own;
     SplatAttributes own_attributes;
+    OwnCurves own_curves;
     uint base = list_first;
     do {
         uint place = place_of(base, list_first);
@@ -107,25 +148,18 @@ void sum(uint list_first, uint end, bool clipped, bool lit)
                 own_attributes.color = own_attributes.alpha * shaded(own_attributes.color, normal, v);
             }
             stage_shared(own_attributes);
+            own_curves = load_curves(own, clipped);
         }
-        [[unroll]] for (uint first = 0; first < batch; first += AT_ONCE) {
-            Splat splats[AT_ONCE];
-            SplatAttributes attributes[AT_ONCE];
-            Column columns[AT_ONCE];
-            [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
-                splats[k] = broadcast(own, place + first + k);
-                attributes[k] = broadcast(own_attributes, place + first + k);
-                columns[k] = column_of(splats[k]);
-            }
-            float kept[AT_ONCE][ROWS];
-            find_kept(clipped, min(AT_ONCE, batch), own, splats, place + first, kept);
-            [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
-                    add(splats[k], attributes[k], columns[k], clipped ? kept[k][row] : 1.0, row);
-                }
-            }
+        if (!in_steps(clipped)) {
+            sum_batch(own, own_attributes, own_curves, TILE_BATCH, place, clipped);
+            base += TILE_BATCH;
+        } else {
+            do {
+                sum_batch(own, own_attributes, own_curves, CLIPPED_BATCH, place, clipped);
+                place += CLIPPED_BATCH;
+            } while (place < LOADED && base + place < end);
+            base += LOADED;
         }
-        base += batch;
     } while (base < end);
 }
 

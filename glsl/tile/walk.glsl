@@ -17,31 +17,34 @@ layout(set = 0, binding = BIND_RECT_TEXELS) uniform utextureBuffer rect_texels;
 // PARTED: the first quarter of records tells which are cut (tile/splat.glsl), and CURVED: their curves, in which cells (tile/cut.glsl).
 layout(set = 0, binding = BIND_RECORDS, std430) readonly buffer Records0 { vec4 records0[]; };
 layout(set = 0, binding = BIND_RECORD_TEXELS) uniform textureBuffer record_texels0;
-layout(set = 0, binding = BIND_CLIPS, std430) readonly buffer ClipRecords { vec4 clip_records[]; };
+layout(set = 0, binding = BIND_CLIPS, std430) readonly buffer ClipWords { uint clip_words[]; };
 layout(set = 0, binding = BIND_CLIP_TEXELS) uniform textureBuffer clip_texels;
 
 layout(constant_id = SPEC_LISTED) const bool LISTED = false; // records are those of a list, whose length only the device knows
 layout(set = 0, binding = BIND_VISIBLE_STARTS, std430) readonly buffer VisibleStarts { uint visible_starts[]; };
+
+const uint NO_BIN = 0xffffffffu;
 
 uint rect_of(uint record)
 {
     return TEXELS ? texelFetch(rect_texels, int(record)).x : rects[record];
 }
 
-uint cells_of_curve(uint record, uint number)
+// Where a record's curves and planes cut, by a row of the cells of its rect: in the first CELLS_ALONG bits those where something is left of it, then those that they cut.
+uint cells_of(uint record, uint row)
 {
-    uint place = CLIP_VECTORS * record + 3 * number + 2;
-    return uint(TEXELS ? texelFetch(clip_texels, int(place)).w : clip_records[place].w);
+    const uint WHOLE = (1u << CELLS_ALONG) - 1;
+    bool clipped = PARTED && (TEXELS ? texelFetch(record_texels0, int(record)).z : records0[record].z) < 0.0;
+    uint vector = CLIP_RECORD_VECTORS * record + CLIP_VECTORS + row / 4;
+    uint word = !CURVED ? ~0u : TEXELS ? floatBitsToUint(texelFetch(clip_texels, int(vector))[row % 4]) : clip_words[4 * vector + row % 4];
+    return clipped ? word : WHOLE;
 }
 
-// The cells of a record's rect where something is left of it, and those where curves cut it.
-uvec2 cells_of(uint record)
+// The bin of a tile; NO_BIN where nothing is left.
+uint bin_of(uint tile, uint cells, uint column)
 {
-    bool clipped = PARTED && (TEXELS ? texelFetch(record_texels0, int(record)).z : records0[record].z) < 0.0;
-    if (!CURVED) {
-        return uvec2(~0u, clipped ? ~0u : 0);
-    }
-    return clipped ? uvec2(cells_of_curve(record, 0), cells_of_curve(record, 1)) : uvec2(~0u, 0);
+    uint bits = cells >> column;
+    return (bits & 1) == 0 ? NO_BIN : TILE_BINS * tile + (bits >> CELLS_ALONG & 1);
 }
 
 // Records of the segment.

@@ -31,7 +31,6 @@ void walk()
     uint row_tile = 0; // the first of the row
     uint outside = 0;
     uvec2 size = uvec2(0);
-    uvec2 cells = uvec2(0);
     while (next < end || in_row > 0) {
         if (in_row == 0) {
             record = record_at(segment, next);
@@ -46,7 +45,6 @@ void walk()
                 uvec2 more = more_of(rect);
                 outside = outside_of(rect);
                 size = more;
-                cells = cells_of(record);
                 width = more.x + 1;
                 rows = more.y;
                 row_tile = first.x + first.y * push.tiles_x - push.first_tile;
@@ -55,9 +53,13 @@ void walk()
             }
         }
         if (in_row > 0) {
-            uint cell = PARTED ? cell_of(uvec2(tile - row_tile, size.y - rows), cell_shift(size)) : 0;
-            if (!PARTED || (cells.x >> cell & 1) != 0) {
-                visit(segment, record, TILE_BINS * tile + (PARTED ? cells.y >> cell & 1 : 0));
+            uint bin = tile;
+            if (PARTED) {
+                uint shift = cell_shift(size);
+                bin = bin_of(tile, cells_of(record, size.y - rows >> shift), tile - row_tile >> shift);
+            }
+            if (!PARTED || bin != NO_BIN) {
+                visit(segment, record, bin);
             }
             tile++;
             in_row--;

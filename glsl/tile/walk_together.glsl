@@ -8,11 +8,9 @@
 
 layout(local_size_x = WALK_LANES) in;
 
-const uint NO_BIN = 0xffffffffu;
-
 shared uint shared_rects[WALK_LANES];
 shared uvec4 shared_spans[WALK_LANES]; // of the rect: its first tile, and how many more there are; of one that means something else, no tile
-shared uvec2 shared_cells[WALK_LANES]; // PARTED: of the rect, as cells_of has them
+shared uint shared_cells[CELLS_ALONG * WALK_LANES]; // PARTED: rows of the rect, as cells_of has them
 shared uint tile_ends[WALK_LANES];     // tiles of all rects up to this one
 
 // Bins of a rect, with those in its corners and cells where nothing of the splat is.
@@ -32,13 +30,12 @@ uint bin_in(uint place, uvec2 at)
         return NO_BIN;
     }
     uvec2 tile = span.xy + at;
-    uint bin = TILE_BINS * (tile.x + tile.y * push.tiles_x - push.first_tile);
+    uint number = tile.x + tile.y * push.tiles_x - push.first_tile;
     if (PARTED) {
-        uint cell = cell_of(at, cell_shift(span.zw));
-        uvec2 cells = shared_cells[place] >> cell & 1;
-        return cells.x != 0 ? bin + cells.y : NO_BIN;
+        uvec2 cell = at >> cell_shift(span.zw);
+        return bin_of(number, shared_cells[cell.y * WALK_LANES + place], cell.x);
     }
-    return bin;
+    return number;
 }
 
 // A record of those at hand in a tile.
@@ -120,7 +117,9 @@ void walk()
         shared_rects[lane] = rect;
         shared_spans[lane] = rect < RECT_CHUNK ? uvec4(first_of(rect), more_of(rect)) : uvec4(uvec2(~0u), uvec2(0));
         if (PARTED) {
-            shared_cells[lane] = rect < RECT_CHUNK ? cells_of(record) : uvec2(0);
+            [[unroll]] for (uint row = 0; row < CELLS_ALONG; row++) {
+                shared_cells[row * WALK_LANES + lane] = rect < RECT_CHUNK ? cells_of(record, row) : 0;
+            }
         }
         uint all = sum_tiles(bins_of(rect));
 #if defined(LISTS)

@@ -6,15 +6,15 @@ use crate::common::{
     shared, with, with_points_up_to,
 };
 use crate::orthographic::parallel;
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec2};
 use surfel::{
     geometry::sharp::{SharpOptions, sharp_splats},
-    hard_scenes::parts,
+    hard_scenes::{builder::Builder, parts},
     prepare::Chunk,
     renderer::Headless,
     scene::{
-        Clips, Colors, Edges, Filter, Layers, MeshObject, Object, Rasterizer, Scene, Settings, Shading,
-        Splats, TileInvocations,
+        Clip, ClipCurve, Clips, Colors, Edges, Filter, Layers, MeshObject, Object, Rasterizer, Scene,
+        Settings, Shading, Splats, TileInvocations,
     },
     selftest::{light::compare_light, tolerance::LIGHT},
 };
@@ -184,6 +184,40 @@ fn what_is_behind_large_splats_is_not_seen_through_them() {
                 "{rasterizer:?} {edges:?}: red pixels {red:?}, {blue} blue"
             );
             assert!(red.iter().sum::<f32>() < 0.15, "{rasterizer:?} {edges:?}: {red:?}");
+        }
+    }
+}
+
+/// Far more of them in one tile than one dispatch has iterations for, of which llvmpipe ends the rest without a word.
+#[test]
+fn of_very_many_clipped_splats_in_one_tile_none_is_left_out() {
+    const ALONG: u32 = 200;
+    let mut splats = Builder::default();
+    let radius = 1.0 / f64::from(ALONG);
+    for i in 0..ALONG * ALONG {
+        let [x, y] = [i % ALONG, i / ALONG].map(|at| (f64::from(at) + 0.5) * radius - 0.5);
+        splats.ellipse(DVec3::new(x, y, 0.0), DVec3::X * radius, DVec3::Y * radius, [1.0; 4]);
+    }
+    let mut scene = splats.scene(false);
+    let line =
+        |start_rad: f32| ClipCurve { start_rad, end_rad: start_rad + 3.0, middle: Vec2::ZERO, weight: 0.0 };
+    let clip = Clip::Either(line(0.3), line(0.5));
+    scene.objects[0].splats.clips = Clips::of(vec![clip; (ALONG * ALONG) as usize]);
+    let mut headless = shared();
+    for invocations in [TileInvocations::Column, TileInvocations::Pixel] {
+        for edges in [Edges::Hard, Edges::Coverage] {
+            let mut hard = with(&scenes::clipped(), |settings| {
+                settings.rasterizer = Rasterizer::Compute;
+                settings.tile_invocations = invocations;
+                settings.edges = edges;
+                settings.size_px = [8, 8];
+                settings.background = None;
+            });
+            hard.scene = scene.clone();
+            hard.camera = builder::camera([0.0, 0.0, 2.0], [0.0; 3]);
+            let frame = render_as(&mut headless, &hard, PICTURE);
+            let whole = frame.linear.iter().filter(|color| color[3] == 1.0).count();
+            assert!(whole >= 12, "{invocations:?} {edges:?}: {whole}");
         }
     }
 }

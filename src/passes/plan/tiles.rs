@@ -10,7 +10,7 @@ use crate::passes::plan::invocations::Invocations;
 use crate::passes::plan::tiles::{
     image_tiles::ImageTiles,
     rows::tile_rows,
-    walks::{MOST_ITERATIONS, pieces_of, round_length, segments_of},
+    walks::{CLIPPED_ITERATIONS, MOST_ITERATIONS, pieces_of, round_length, segments_of},
 };
 use crate::{shaders::config::*, vk::Limits};
 
@@ -118,13 +118,13 @@ impl TilePlan {
 
     /// Bytes of one splat's record and entries, whose box has so many pixels.
     pub(crate) fn bytes_of_one(&self, box_px: f64) -> u64 {
-        let of_clips = if self.clips { u64::from(CLIP_VECTORS) * RECORD_BYTES } else { 0 };
+        let of_clips = if self.clips { u64::from(CLIP_RECORD_VECTORS) * RECORD_BYTES } else { 0 };
         bytes_of_records(1) + of_clips + 4 * self.image_tiles().of(box_px).min(self.most_tiles.into())
     }
 
     /// Bytes of the clip curves of records.
     pub(crate) fn clip_bytes(&self) -> u64 {
-        if self.clips { self.record_room * u64::from(CLIP_VECTORS) * RECORD_BYTES } else { 0 }
+        if self.clips { self.record_room * u64::from(CLIP_RECORD_VECTORS) * RECORD_BYTES } else { 0 }
     }
 
     /// The plan for rows of an image, and so many chunks with so many splats of boxes up to so many pixels.
@@ -220,7 +220,8 @@ impl TilePlan {
 
     /// The plan for splats of which clip curves or planes cut off something; none where the curves have no room.
     fn cut_by(self, clips: bool, planes: bool, limits: &Limits) -> Option<Self> {
-        let plan = Self { clips, planes, ..self };
+        let walk_length = if clips { self.walk_length / CLIPPED_ITERATIONS } else { self.walk_length };
+        let plan = Self { clips, planes, walk_length, part_length: walk_length, ..self };
         let texels = plan.clip_bytes() / RECORD_BYTES;
         let fit = plan.clip_bytes().max(plan.count_bytes()) <= limits.max_storage_buffer_range
             && (!plan.invocations.fetch_texels() || texels <= limits.max_texels.into());

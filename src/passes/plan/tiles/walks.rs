@@ -8,6 +8,10 @@ use crate::{
 /// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.
 pub(super) const MOST_ITERATIONS: u32 = 60_000;
 
+/// By so many times more iterations than others splats that clip curves cut have at most (`glsl/tile/surface.glsl`): of 8, which are one step of a loop, columns take two in each of four steps, and
+/// each step is a loop over two curves; pixels take each in one over two.
+pub(super) const CLIPPED_ITERATIONS: u32 = 17;
+
 /// Segments: enough to keep a CPU's cores busy with vectors of 8, and few enough that their counts of all tiles stay small.
 const SEGMENTS: u32 = 32;
 
