@@ -65,15 +65,28 @@ const float MOST_SLOPED = 52.0;
 
 layout(constant_id = SPEC_SHARP) const bool SHARP = false; // and edges are covered in part
 
+// L / l - 1.
+float lengthening(float minor, float most)
+{
+    float h = frame.filter_radius;
+    float ratio = h < most * minor ? h / minor : most;
+    return min(sqrt(1.0 + ratio * ratio), most) - 1.0;
+}
+
 // `ray`: through its center. `slant`: the splat's depth over its radius.
 float thickened(vec3 ray, vec3 s, vec3 t, float slant)
 {
-    float minor = abs(principal_axes(ray, s, t).minor);
-    float h = frame.filter_radius;
     float most = COVERAGE_EDGES && !IN_LAYERS && !SHARP ? MOST_SLOPED : MOST_LENGTHENED;
-    float ratio = h < most * minor ? h / minor : most;
-    float lengthened = min(sqrt(1.0 + ratio * ratio), most) - 1.0;
+    float lengthened = lengthening(abs(principal_axes(ray, s, t).minor), most);
     return 1.0 + lengthened * (COVERAGE_EDGES && !IN_LAYERS ? 1.0 + (SHARP ? SHARP_LENGTHENING : EDGE_LENGTHENING) * slant : 2.0);
+}
+
+// What comes upon epsilon of a transparent splat of a surface with sharp edges, whose epsilon is not its radius (src/prepare/near_surfaces/sharp.rs): (2 L / l - 2) r as above,
+// where r is by how much the end of its minor axis is deeper than its center.
+float leaning(vec3 ray, vec3 s, vec3 t)
+{
+    Principal axes = principal_axes(ray, s, t);
+    return 2.0 * lengthening(abs(axes.minor), MOST_LENGTHENED) * abs(axes.cosine * t.z - axes.sine * s.z);
 }
 
 // The direction of the ray through a point, of any length.
@@ -174,7 +187,11 @@ bool map_splat(uint index, out Mapping m)
 
     float thickness = splat.radius * splat.epsilon_share;
     if ((IN_LAYERS || COVERAGE_EDGES) && FILTER != FILTER_NONE && m.regular) {
-        thickness *= FORMULA(FORMULA_LENGTHENED, thickened(ray_through(splat.p), splat.s, splat.t, depth_radius / splat.radius));
+        if (IN_LAYERS && SHARP) {
+            thickness += FORMULA(FORMULA_LENGTHENED, leaning(ray_through(splat.p), splat.s, splat.t));
+        } else {
+            thickness *= FORMULA(FORMULA_LENGTHENED, thickened(ray_through(splat.p), splat.s, splat.t, depth_radius / splat.radius));
+        }
     }
     // Depths of one surface, found from two splats of it, differ by some steps of f32: with a smaller shift than the least it would
     // hide itself in part. The reference has this rule, too (src/reference/splat.rs). A product of f32 may be 0 where neither factor

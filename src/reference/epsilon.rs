@@ -46,6 +46,14 @@ impl EpsilonRule {
             Self::Radii(radii, shares) => radii * thickness * shares.as_ref().map_or(1.0, |shares| shares[i]),
         }
     }
+
+    /// Of a length that stands for a radius, whatever share splats have; none where ε is a length itself.
+    pub fn of_length(&self, length: f64) -> f64 {
+        match self {
+            Self::Length(_) => 0.0,
+            Self::Radii(radii, _) => radii * length,
+        }
+    }
 }
 
 /// The ε of transparent polygons, which have no radius: with one in radii the mean of transparent splats, of all that can

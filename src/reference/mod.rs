@@ -74,6 +74,7 @@ mod splat;
 mod surface;
 mod surfaces;
 mod tangents;
+mod thickness;
 mod transition;
 mod triangle;
 mod true_pixel;

@@ -8,7 +8,7 @@ use super::borders::at_border;
 use super::covering::{Covering, covers_in_part, left_out};
 use super::drawn_clip::DrawnClip;
 use super::epsilon::{EpsilonRule, polygon_reach};
-use super::filter::{adjust, area_share, lengthened, minor_axis, projected};
+use super::filter::{adjust, area_share, minor_axis, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
 use super::near_surfaces::{Bend, bends};
@@ -17,6 +17,7 @@ use super::paper_filter::adjust_paper;
 use super::reach::Reach;
 use super::surface::Attributes;
 use super::tangents::tangents;
+use super::thickness::{of_layers, thickened};
 use super::view::View;
 use crate::scene::{
     Backfaces, DefectCounts, Filter, FilterWeight, Object, Opacity, Rasterizer, Scene, Settings,
@@ -95,12 +96,6 @@ const REGULAR_DEPTH_RATIO: f64 = 0.9;
 /// The least part of its depth by which a splat is shifted: with less, a surface whose depth has 24 bits would hide itself in part.
 /// Farther away than 1e6 ε, surfaces closer to each other than a millionth of their distance are one.
 const LEAST_SHIFT: f64 = 1e-6;
-
-/// How much more than by itself ε grows, where edges are not hard, as a filter lengthens a splat that is as deep as it is large: near a
-/// silhouette a surface bends away from the plane of its nearest splat within the filter's reach. Then the ratio to which it lengthens it at most. A surface with sharp edges bends more.
-const EDGE_LENGTHENING: [f64; 2] = [4.0, 52.0];
-const SHARP_LENGTHENING: [f64; 2] = [16.0, MOST_LENGTHENED];
-const MOST_LENGTHENED: f64 = 16.0;
 
 /// Every splat of the scene that can be seen from the front or is to be turned, and what was left out as defective.
 /// Objects whose every alpha is 0 have none.
@@ -189,17 +184,15 @@ fn prepare_one(
     let h = view.filter_radius();
     let original = (s, t);
     let is_layered = opacity == Opacity::Transparent;
-    let thickness = match settings.filter {
-        Filter::None => 1.0,
-        _ if overlap.is_some() && !is_layered && regular => {
-            let slant = depth_radius / splats.major_radius(i);
-            let [by_slant, most] = if splats.clips.is_empty() { EDGE_LENGTHENING } else { SHARP_LENGTHENING };
-            1.0 + (lengthened(center, s, t, h, most) - 1.0) * (1.0 + by_slant * slant)
+    let is_sharp = overlap.is_some_and(|(_, bend)| bend.is_some());
+    let (thickness, leaning) = match (settings.filter != Filter::None && regular, is_layered) {
+        (true, true) => of_layers(center, (s, t), h, is_sharp),
+        (true, false) if overlap.is_some() => {
+            (thickened(center, (s, t), h, depth_radius / splats.major_radius(i), is_sharp), 0.0)
         }
-        _ if is_layered && regular => 1.0 + 2.0 * (lengthened(center, s, t, h, MOST_LENGTHENED) - 1.0),
-        _ => 1.0,
+        _ => (1.0, 0.0),
     };
-    let epsilon = rule.epsilon(i, splats.major_radius(i) * thickness);
+    let epsilon = rule.epsilon(i, splats.major_radius(i) * thickness) + rule.of_length(leaning);
     let shift = if epsilon > 0.0 {
         1.0 + (epsilon / center.z.max(epsilon)).max(LEAST_SHIFT * view.depth_share)
     } else {
