@@ -3,7 +3,7 @@
 mod cuts;
 
 use crate::common::{
-    PICTURE, oracle_of, passes, render, render_as,
+    PICTURE, headless, oracle_of, passes, render, render_as,
     scenes::{self, Hard},
     shared, with,
 };
@@ -213,7 +213,8 @@ fn planes_far_from_the_origin_and_none_at_all() {
 
 #[test]
 fn planes_that_meet_nothing_leave_the_frame_as_it_is_and_its_backs_undrawn() {
-    let mut headless = shared();
+    // Of its own: others may have made pipelines of the same cuts.
+    let mut headless = headless();
     let settings = Settings { backfaces: Backfaces::Auto, background: None, ..Settings::default() };
     let of = |hard: Hard| {
         let mut hard =
