@@ -73,20 +73,6 @@ float part_behind(vec2 a, vec2 b)
     return parallel * min(inversesqrt(max(a2 * b2, 1e-24)), SURE_BEHIND / max(max(a2, b2), 1e-12));
 }
 
-// Whether there is one, of splats.
-bool see_surface(Range range, float polygons_left[ROWS], inout float beside_depth[ROWS])
-{
-    begin_surface();
-    see(range);
-    bool left = false;
-    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-        left = left || visible[row] > 0.0;
-        beside_depth[row] = polygons_between(visible[row], polygons_left[row], row).depth;
-        polygon[row] = max(beside_depth[row], visible[row]);
-    }
-    return left;
-}
-
 // Surface after surface, until each pixel of the tile is covered or nothing is left: what lies side by side in a pixel adds up. But what ends toward the
 // same side as what is before it lies behind that, as the far side of a plate does, and is seen only where it reaches further.
 void shade_edges(Range range)
@@ -109,23 +95,22 @@ void shade_edges(Range range)
     }
     // A shader's loops have an end (tile/work.glsl): there are as many surfaces as it has walks over so many splats.
     uint most = clamp(PART_LENGTH / max(range.end - range.first, 1), 1, MOST_EDGE_SURFACES);
-    // Where curves cut, most pixels are not whole after the first surface, and mostly nothing is behind: the next one is looked for before a CPU, which jumps over nothing, begins to
-    // sum it. Elsewhere most tiles are whole by then, and would look in vain.
-    if (CUTS) {
-        see_surface(range, polygons_left, beside_depth);
-    }
-    uint number = 0;
-    do {
+    for (uint number = 0; number < most; number++) {
         all_cover = number + 1 == most;
-        if (!CUTS) {
-            bool left = see_surface(range, polygons_left, beside_depth);
-            // Behind most silhouettes of a tile there is nothing.
-            if (number > 0 && votes_of_tile(left).y == 0) {
-                break;
-            }
+        begin_surface();
+        see(range);
+        bool left = false;
+        [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+            left = left || visible[row] > 0.0;
+            beside_depth[row] = polygons_between(visible[row], polygons_left[row], row).depth;
+            polygon[row] = max(beside_depth[row], visible[row]);
+        }
+        // Behind most silhouettes of a tile there is nothing.
+        if (number > 0 && votes_of_tile(left).y == 0) {
+            break;
         }
         sum(range, false);
-        bool left = false;
+        left = false;
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             Surface surface = normalized(colors[row], normals[row].xyz);
             vec3 v = to_eye(top_px + vec2(0.0, float(first_row + row)));
@@ -175,14 +160,7 @@ void shade_edges(Range range)
         if (votes_of_tile(left).y == 0) {
             break;
         }
-        number++;
-        if (CUTS && number < most) {
-            left = see_surface(range, polygons_left, beside_depth);
-            if (votes_of_tile(left).y == 0) {
-                break;
-            }
-        }
-    } while (number < most);
+    }
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         if (WITH_POLYGONS) {
             Polygons rest = polygons_between(0.0, polygons_left[row], row);

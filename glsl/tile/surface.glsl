@@ -86,6 +86,7 @@ void see_batch(Splat own, OwnCurves own_curves, uint batch, uint place, bool cli
 
 void see(uint list_first, uint end, bool clipped)
 {
+    uint batch = CLIPS && clipped ? CLIPPED_BATCH : TILE_BATCH;
     Splat own;
     OwnCurves own_curves;
     uint base = list_first;
@@ -96,16 +97,11 @@ void see(uint list_first, uint end, bool clipped)
             stage_shared(own);
             own_curves = load_curves(own, clipped);
         }
-        if (!in_steps(clipped)) {
-            see_batch(own, own_curves, TILE_BATCH, place, clipped);
-            base += TILE_BATCH;
-        } else {
-            do {
-                see_batch(own, own_curves, CLIPPED_BATCH, place, clipped);
-                place += CLIPPED_BATCH;
-            } while (place < LOADED && base + place < end);
-            base += LOADED;
-        }
+        do {
+            see_batch(own, own_curves, batch, place, clipped);
+            place += batch;
+        } while (in_steps(clipped) && place < LOADED && base + place < end);
+        base += in_steps(clipped) ? LOADED : TILE_BATCH;
     } while (base < end);
 }
 
@@ -132,6 +128,7 @@ void sum_batch(Splat own, SplatAttributes own_attributes, OwnCurves own_curves, 
 
 void sum(uint list_first, uint end, bool clipped, bool lit)
 {
+    uint batch = CLIPS && clipped ? CLIPPED_BATCH : TILE_BATCH;
     Splat own;
     SplatAttributes own_attributes;
     OwnCurves own_curves;
@@ -150,16 +147,11 @@ void sum(uint list_first, uint end, bool clipped, bool lit)
             stage_shared(own_attributes);
             own_curves = load_curves(own, clipped);
         }
-        if (!in_steps(clipped)) {
-            sum_batch(own, own_attributes, own_curves, TILE_BATCH, place, clipped);
-            base += TILE_BATCH;
-        } else {
-            do {
-                sum_batch(own, own_attributes, own_curves, CLIPPED_BATCH, place, clipped);
-                place += CLIPPED_BATCH;
-            } while (place < LOADED && base + place < end);
-            base += LOADED;
-        }
+        do {
+            sum_batch(own, own_attributes, own_curves, batch, place, clipped);
+            place += batch;
+        } while (in_steps(clipped) && place < LOADED && base + place < end);
+        base += in_steps(clipped) ? LOADED : TILE_BATCH;
     } while (base < end);
 }
 
