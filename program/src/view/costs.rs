@@ -30,16 +30,17 @@ impl Viewer {
                     continue;
                 }
                 // A picture at rest tells of moving ones where they are the same.
-                if is_moving && cost.what != "ahead" && (which == Use::Moving || self.pace.is_finest()) {
+                let is_hidden = ["ahead", "again"].contains(&cost.what);
+                if is_moving && !is_hidden && (which == Use::Moving || self.pace.is_finest()) {
                     let secs = period.map_or(cost.secs, |period| period.as_secs_f64());
                     self.pace.learn(secs, cost.compiles);
                 }
-                if cost.what == "whole" && !cost.compiles {
+                if ["whole", "again"].contains(&cost.what) && !cost.compiles {
                     self.pace.learn_whole(cost.secs);
                     let hidden = self.next_hidden(&self.whole());
                     self.refines = self.refines.or(hidden.map(|_| Instant::now()));
                 }
-                if !["step", "ahead"].contains(&cost.what) {
+                if cost.what != "step" && !is_hidden {
                     self.ui.history.push(&cost);
                 }
             }

@@ -7,6 +7,8 @@ use super::{refine::LEVELED_PX, viewer::Viewer};
 /// What a picture is that nobody sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hidden {
+    /// All of the picture once more, for what it costs.
+    Whole,
     /// One that moves, of a step of the pace.
     Moving(usize),
     /// [`super::refine::Refinement::Leveled`].
@@ -45,6 +47,10 @@ impl Viewer {
         else {
             return Vec::new();
         };
+        if self.pace.asks_for_whole() && !self.hidden.contains(&Hidden::Whole) {
+            let camera = navigation.camera;
+            return vec![HiddenPicture { what: Hidden::Whole, camera, settings: whole.clone() }];
+        }
         let mut all = Vec::new();
         if !self.pace.is_finest() {
             let paces = self.pace.and_next().filter(|pace| !pace.is_finest());

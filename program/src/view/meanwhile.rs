@@ -39,6 +39,7 @@ impl Viewer {
             }
         }
         self.scene_number += 1;
+        self.pace.forget_whole();
         self.prepared = Some(coming);
         self.prepared_of = self.newest();
         self.changed();

@@ -42,6 +42,8 @@ pub struct Pace {
     fast: u32,
     /// What all of the picture has cost last.
     whole_secs: f64,
+    /// That is of the scene that is shown.
+    knows_whole: bool,
     /// What it would cost by the last frame that moved.
     expected_secs: f64,
     /// The last frame that moved since then, as if it were as large as all of the picture.
@@ -106,9 +108,19 @@ impl Pace {
         if self.waits() { REST_OF_LONG } else { REST }
     }
 
+    /// Another scene is shown.
+    pub fn forget_whole(&mut self) {
+        self.knows_whole = false;
+    }
+
+    /// Whether all of the picture is to be drawn once more, for what it costs: it did so with pipelines that ran for the first time alone, and a hand that comes would begin too fine.
+    pub fn asks_for_whole(&self) -> bool {
+        !self.knows_whole && !self.has_moved
+    }
+
     /// Learns what all of the picture has cost. Where none has moved yet, one that does begins as coarse as that lets expect: no frame of a hand is spent on finding out.
     pub fn learn_whole(&mut self, secs: f64) {
-        (self.whole_secs, self.expected_secs) = (secs, secs);
+        (self.whole_secs, self.expected_secs, self.knows_whole) = (secs, secs, true);
         let ratio = self.moving_secs.take().map(|moving_secs| secs / moving_secs);
         self.whole_over_moving = ratio.or(self.whole_over_moving);
         if !self.has_moved {
@@ -176,6 +188,14 @@ mod tests {
             pace.step
         };
         assert_eq!([0.01, 0.039, 0.05, 0.27, 100.0].map(first), [0, 0, 1, 5, STEPS.len() - 1]);
+        let mut pace = Pace::default();
+        assert!(pace.asks_for_whole());
+        pace.learn_whole(0.27);
+        assert!(!pace.asks_for_whole());
+        pace.forget_whole();
+        assert!(pace.asks_for_whole() && !pace.is_finest());
+        pace.learn(0.01, false);
+        assert!(!pace.asks_for_whole(), "what moves tells by itself");
         // After that, frames that move tell.
         let mut pace = Pace::default();
         pace.learn(0.01, false);

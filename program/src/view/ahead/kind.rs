@@ -1,6 +1,9 @@
 //! Which pictures have the same pipelines, and of which those have run.
 
-use std::sync::Arc;
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use surfel::scene::{Camera, Lod, Scene, Settings};
 
@@ -44,8 +47,9 @@ impl Kind {
     }
 }
 
-/// So many jobs are drawn for pictures that go on changing before the window draws what there is.
+/// So many jobs are drawn for pictures that go on changing before the window draws what there is, and one where that takes longer.
 const MOST_JOBS: usize = 4;
+const LONG: Duration = Duration::from_secs(4);
 
 /// Which pictures the thread draws, and which it has drawn.
 #[derive(Default)]
@@ -54,14 +58,15 @@ pub struct Known {
     waiting: Vec<(Kind, bool)>,
     /// Those of the newest jobs that are drawn.
     drawn: Vec<Kind>,
-    /// How many jobs are drawn since pictures were asked for that the window has not drawn since.
+    /// How many jobs are drawn since pictures were asked for that the window has not drawn since, and when that was.
     jobs: usize,
+    begun: Option<Instant>,
 }
 
 impl Known {
     /// Other pictures are to be drawn, or the same ones of other sizes or from elsewhere, which may have other pipelines.
     pub fn begin(&mut self) {
-        self.jobs = 0;
+        (self.jobs, self.begun) = (0, Some(Instant::now()));
     }
 
     /// Whether one of these waits. Of pictures that are shown those of all sizes wait for each other: a hand moves meanwhile, and its pictures grow and shrink. For those that nobody sees no hand waits.
@@ -83,7 +88,8 @@ impl Known {
 
     /// Whether a hand moves on faster than the thread draws.
     pub fn is_behind(&self) -> bool {
-        self.jobs >= MOST_JOBS
+        let is_long = self.jobs > 0 && self.begun.is_some_and(|begun| begun.elapsed() > LONG);
+        is_long || self.jobs >= MOST_JOBS
     }
 
     /// These are to come.
@@ -153,5 +159,9 @@ mod tests {
         assert!(known.is_behind());
         known.begin();
         assert!(!known.is_behind() && known.are_drawn(from_ref(&whole)));
+        known.begun = Instant::now().checked_sub(2 * LONG);
+        assert!(!known.is_behind(), "nothing was drawn for it");
+        known.are_done(vec![whole], 1);
+        assert!(known.is_behind());
     }
 }
