@@ -6,10 +6,7 @@ mod ran;
 
 use std::{
     path::Path,
-    sync::{
-        Arc, Mutex,
-        atomic::{AtomicU64, Ordering},
-    },
+    sync::{Arc, Mutex, atomic::AtomicU64},
 };
 
 use ash::vk;
@@ -277,11 +274,6 @@ impl Shaders {
             self.ran().made(pipeline.raw(), number_of_compute(key));
             Ok(pipeline)
         })
-    }
-
-    /// The time, in pipelines asked for.
-    fn now(&self) -> u64 {
-        self.asked.fetch_add(1, Ordering::Relaxed)
     }
 
     #[cfg(feature = "test-formulas")]

@@ -78,6 +78,11 @@ impl Shaders {
         self.asked.load(Ordering::Relaxed)
     }
 
+    /// That time, as one is asked for.
+    pub(super) fn now(&self) -> u64 {
+        self.asked.fetch_add(1, Ordering::Relaxed)
+    }
+
     /// Whether all pipelines that were asked for since have run in a step of a frame, or elsewhere.
     pub fn have_run_since(&self, time: u64) -> bool {
         let asked = |number, used| (used >= time).then_some(number);
