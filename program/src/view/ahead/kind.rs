@@ -1,9 +1,6 @@
 //! Which pictures have the same pipelines, and of which those have run.
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::sync::Arc;
 
 use surfel::scene::{Camera, Lod, Scene, Settings};
 
@@ -47,9 +44,8 @@ impl Kind {
     }
 }
 
-/// So many jobs are drawn for pictures that go on changing before the window draws what there is, and one where that takes longer.
+/// So many jobs are drawn for pictures that go on changing before the window draws what there is.
 const MOST_JOBS: usize = 4;
-const LONG: Duration = Duration::from_secs(4);
 
 /// Which pictures the thread draws, and which it has drawn.
 #[derive(Default)]
@@ -58,15 +54,14 @@ pub struct Known {
     waiting: Vec<(Kind, bool)>,
     /// Those of the newest jobs that are drawn.
     drawn: Vec<Kind>,
-    /// How many jobs are drawn since pictures were asked for that the window has not drawn since, and when that was.
+    /// How many jobs are drawn since pictures were asked for that the window has not drawn since.
     jobs: usize,
-    begun: Option<Instant>,
 }
 
 impl Known {
     /// Other pictures are to be drawn, or the same ones of other sizes or from elsewhere, which may have other pipelines.
     pub fn begin(&mut self) {
-        (self.jobs, self.begun) = (0, Some(Instant::now()));
+        self.jobs = 0;
     }
 
     /// Whether one of these waits. Of pictures that are shown those of all sizes wait for each other: a hand moves meanwhile, and its pictures grow and shrink. For those that nobody sees no hand waits.
@@ -88,8 +83,7 @@ impl Known {
 
     /// Whether a hand moves on faster than the thread draws.
     pub fn is_behind(&self) -> bool {
-        let is_long = self.jobs > 0 && self.begun.is_some_and(|begun| begun.elapsed() > LONG);
-        is_long || self.jobs >= MOST_JOBS
+        self.jobs >= MOST_JOBS
     }
 
     /// These are to come.
@@ -159,9 +153,5 @@ mod tests {
         assert!(known.is_behind());
         known.begin();
         assert!(!known.is_behind() && known.are_drawn(from_ref(&whole)));
-        known.begun = Instant::now().checked_sub(2 * LONG);
-        assert!(!known.is_behind(), "nothing was drawn for it");
-        known.are_done(vec![whole], 1);
-        assert!(known.is_behind());
     }
 }
