@@ -3,6 +3,8 @@
 mod between;
 mod images;
 
+pub use between::Pipelines;
+
 use std::{
     sync::Arc,
     time::{Duration, Instant},

@@ -9,7 +9,8 @@ use surfel::{
 };
 
 use super::{
-    ahead::Job, edits::Edits, on_device::OnDevice, picture::Use, steps::Choice, told::Step, viewer::Viewer,
+    ahead::Job, edits::Edits, gpu::Pipelines, on_device::OnDevice, picture::Use, steps::Choice, told::Step,
+    viewer::Viewer,
 };
 
 /// What was drawn last.
@@ -84,12 +85,11 @@ impl Viewer {
         let prepared = coming.or(self.prepared.as_ref());
         let scene = prepared.map(OnDevice::scene).or(self.warm.as_ref());
         let views = scene.map_or(Vec::new(), |scene| choice.views(scene));
-        let time = self.gpu.headless.renderer.shaders().time();
-        let are_made = self.gpu.make_pipelines(&views)?;
+        let Pipelines { are_made, have_run } = self.gpu.make_pipelines(&views)?;
         if !are_made {
             self.window.request_redraw();
         }
-        if self.ahead.is_none() || self.gpu.headless.renderer.shaders().have_run_since(time) {
+        if self.ahead.is_none() || have_run {
             return Ok(are_made);
         }
         // The window goes on with the scene before until the one that comes is there.
@@ -121,9 +121,7 @@ impl Viewer {
         let Some(scene) = self.prepared.as_ref().map(OnDevice::scene).filter(|_| self.ahead.is_some()) else {
             return Ok(true);
         };
-        let shaders = self.gpu.headless.renderer.shaders();
-        let time = shaders.time();
-        Ok(self.gpu.make_pipelines(&choice.views(scene))? && shaders.have_run_since(time))
+        Ok(self.gpu.make_pipelines(&choice.views(scene))? == Pipelines { are_made: true, have_run: true })
     }
 
     /// The pictures of a choice, and what may be drawn soon after them: all of the picture and a moving one; of those that nobody sees the others that come with them.

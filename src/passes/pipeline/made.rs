@@ -98,6 +98,11 @@ impl<K: Eq + Hash, P: OwnsPipeline> Made<K, P> {
         self.all().iter().map(|(key, (_, used))| of(key, *used)).collect()
     }
 
+    /// Those that were asked for last at a time or later.
+    pub fn since(&self, time: u64) -> Vec<vk::Pipeline> {
+        self.all().values().filter(|(_, used)| *used >= time).map(|(pipeline, _)| pipeline.raw()).collect()
+    }
+
     /// Drops those that were asked for last before a time, and tells which.
     pub fn drop_before(&self, time: u64) -> Vec<vk::Pipeline> {
         self.all().extract_if(|_, (_, used)| *used < time).map(|(_, (pipeline, _))| pipeline.raw()).collect()
@@ -154,6 +159,7 @@ mod tests {
         }
         let times = made.for_each(|_, used| used);
         assert_eq!([0, 4, 5, 9].map(|most| first_to_stay(times.clone(), most)), [u64::MAX, 1, 0, 0]);
+        assert_eq!(made.since(4), [vk::Handle::from_raw(8)]);
         made.drop_before(first_to_stay(times, 2));
         let mut left = made.for_each(|key, _| *key);
         left.sort_unstable();

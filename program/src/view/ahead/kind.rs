@@ -76,7 +76,7 @@ impl Known {
         pictures.iter().any(waits)
     }
 
-    /// Whether all of these are drawn, from there: what other device has drawn them by other pipelines can do no more.
+    /// Whether all of these are drawn, from there: where the window's pipelines are others still, the thread can do no more.
     pub fn are_drawn(&self, pictures: &[Kind]) -> bool {
         pictures.iter().all(|own| self.drawn.contains(own))
     }

@@ -19,6 +19,15 @@ use super::{
 /// So long pipelines are made before events are heard again.
 const TURN: Duration = Duration::from_millis(100);
 
+/// Those of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pipelines {
+    /// All are there.
+    pub are_made: bool,
+    /// Those that are there have run, here or on another device.
+    pub have_run: bool,
+}
+
 impl Gpu {
     /// The atlas of letters changes.
     ///
@@ -61,17 +70,18 @@ impl Gpu {
         self.pictures[which.index()].shot().is_some()
     }
 
-    /// Makes some of the pipelines that these pictures need and that are not there yet; whether all are there now.
+    /// Makes some of the pipelines that these pictures need and that are not there yet.
     ///
     /// # Errors
     /// As [`surfel::Renderer::make_pipelines`].
-    pub fn make_pipelines(&self, views: &[(Use, SceneView<'_>)]) -> Result<bool> {
+    pub fn make_pipelines(&self, views: &[(Use, SceneView<'_>)]) -> Result<Pipelines> {
+        let renderer = &self.headless.renderer;
+        let time = renderer.shaders().time();
+        let mut are_made = true;
         for (_, view) in views {
-            if !self.headless.renderer.make_pipelines(view.seen, view.format(), TURN)? {
-                return Ok(false);
-            }
+            are_made = are_made && renderer.make_pipelines(view.seen, view.format(), TURN)?;
         }
-        Ok(true)
+        Ok(Pipelines { are_made, have_run: renderer.shaders().have_run_since(time) })
     }
 
     /// Bytes of device memory in transients of all pictures.

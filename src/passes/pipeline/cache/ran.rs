@@ -85,11 +85,11 @@ impl Shaders {
 
     /// Whether all pipelines that were asked for since have run in a step of a frame, or elsewhere.
     pub fn have_run_since(&self, time: u64) -> bool {
-        let asked = |number, used| (used >= time).then_some(number);
-        let mut numbers = self.graphics.for_each(|key, used| asked(number_of_graphics(key), used));
-        numbers.extend(self.compute.for_each(|key, used| asked(number_of_compute(key), used)));
+        let asked = [self.graphics.since(time), self.compute.since(time)].concat();
         let ran = self.ran();
-        numbers.iter().flatten().all(|number| ran.compiled.contains(number))
+        asked
+            .iter()
+            .all(|pipeline| ran.numbers.get(pipeline).is_some_and(|number| ran.compiled.contains(number)))
     }
 }
 
