@@ -177,6 +177,12 @@ fn what_a_hand_comes_to_has_run_before() {
     let mut view = View::open_in(&screen, &folder, &printing, true, &environment);
     view.wait_for(&render(&folder, &words));
     wait_for_hidden(&mut view, 6);
+    // How coarse these are follows from what all of it costs: not from a frame that had others compiled.
+    let all = view.printed();
+    let (before, _) = all.split_once("\nahead ").unwrap();
+    let last =
+        before.lines().rev().find(|line| ["whole ", "again "].iter().any(|what| line.starts_with(what)));
+    assert!(last.is_some_and(|line| !line.contains("for the first time")), "{before}");
     let printed = view.printed().len();
     screen.drive(&["mousemove", "320", "240"]);
     for _ in 0..16 {
