@@ -14,8 +14,10 @@
 #include "inc/smooth_step.glsl"
 #include "tile/rect.glsl"
 #include "tile/corners.glsl"
+
+// Curves, and behind them words of cells, in one buffer.
 layout(set = 1, binding = BIND_CLIPS, std430) writeonly buffer ClipRecords { vec4 clip_records[]; };
-layout(set = 1, binding = BIND_CLIPS, std430) writeonly buffer ClipWords { uint clip_words[]; }; // the same
+layout(set = 1, binding = BIND_CLIPS, std430) writeonly buffer ClipWords { uint clip_words[]; };
 #include "tile/cut.glsl"
 #define PLANES_SET 1
 #define PLANES_BINDING BIND_PLANES
@@ -35,7 +37,6 @@ layout(set = 1, binding = BIND_RECORDS, std430) writeonly buffer Records0 { vec4
 layout(set = 1, binding = BIND_RECORDS + 1, std430) writeonly buffer Records1 { vec4 records1[]; };
 layout(set = 1, binding = BIND_RECORDS + 2, std430) writeonly buffer Records2 { vec4 records2[]; };
 layout(set = 1, binding = BIND_RECORDS + 3, std430) writeonly buffer Records3 { uvec4 records3[]; };
-
 layout(set = 1, binding = BIND_RECTS, std430) writeonly buffer Rects { uint rects[]; };
 layout(set = 1, binding = BIND_VISIBLE_STARTS, std430) readonly buffer VisibleStarts { uint visible_starts[]; };
 layout(set = 1, binding = BIND_VISIBLE_LIST, std430) readonly buffer VisibleList { uint visible_list[]; };
