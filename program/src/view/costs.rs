@@ -10,6 +10,9 @@ use crate::console;
 /// How soon the cost of a frame is looked for again that is not done.
 pub const COST: Duration = Duration::from_millis(10);
 
+/// The first frames of a hand take their images and their memory, so that the next ones may cost far less. What they have cost is known two frames later.
+const FIRST_FRAMES: u32 = 2;
+
 impl Viewer {
     /// Learns what frames have cost.
     ///
@@ -18,8 +21,9 @@ impl Viewer {
     pub fn learn(&mut self, is_moving: bool) -> Result<()> {
         self.looks_for_costs = None;
         // With what it takes to show the picture, too.
-        let period = self.gpu.take_period().filter(|_| is_moving && self.was_moving);
-        self.was_moving = is_moving;
+        let period = self.gpu.take_period().filter(|_| is_moving && self.moving_frames > 0);
+        self.moving_frames = if is_moving { self.moving_frames.saturating_add(1) } else { 0 };
+        let is_first = self.moving_frames <= FIRST_FRAMES + 1;
         for which in Use::ALL {
             let (costs, all) = self.gpu.take_costs(which)?;
             for cost in costs {
@@ -33,7 +37,7 @@ impl Viewer {
                 let is_hidden = ["ahead", "again"].contains(&cost.what);
                 if is_moving && !is_hidden && (which == Use::Moving || self.pace.is_finest()) {
                     let secs = period.map_or(cost.secs, |period| period.as_secs_f64());
-                    self.pace.learn(secs, cost.compiles);
+                    self.pace.learn(secs, cost.compiles || is_first);
                 }
                 if ["whole", "again"].contains(&cost.what) && !cost.compiles {
                     self.pace.learn_whole(cost.secs);

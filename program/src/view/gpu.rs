@@ -30,8 +30,8 @@ use super::{
 /// How many frames the host records ahead of the device.
 const IN_FLIGHT: usize = 2;
 
-/// Pipelines that are kept for settings that come again: some twenty are of a frame.
-const MOST_PIPELINES: usize = 50;
+/// Pipelines that are kept for settings that come again: some twenty are of a frame, and as many of what a hand comes to next, nearer or as coarse as it must be.
+const MOST_PIPELINES: usize = 64;
 
 /// So many that were given up are worth to look for the memory that they leave.
 const MANY_PIPELINES: usize = 25;

@@ -53,7 +53,7 @@ impl Viewer {
         }
         let mut all = Vec::new();
         if !self.pace.is_finest() {
-            let paces = self.pace.and_next().filter(|pace| !pace.is_finest());
+            let paces = self.pace.and_others().filter(|pace| !pace.is_finest());
             all.extend(
                 paces.map(|pace| {
                     (Hidden::Moving(pace.step()), navigation.camera, self.coarse_by(&pace, whole))

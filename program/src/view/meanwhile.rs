@@ -148,7 +148,7 @@ impl Viewer {
         [next, soon]
     }
 
-    /// The picture as it was, of a camera that has moved since; `None` where that can't be drawn, as where it is the camera that takes other pipelines.
+    /// The picture as it was, of a camera that has moved since: with the settings of before, or those of now as what moved last was drawn; `None` where that can't be drawn.
     pub fn as_before(&self) -> Option<Choice> {
         let before = self.drawn.as_ref()?;
         let camera = self.camera().filter(|camera| *camera != before.camera)?;
@@ -156,17 +156,17 @@ impl Viewer {
         let is_same = (before.encoding, before.scene_number) == (self.encoding, self.scene_number);
         let other = self.comparing.map(|_| &self.other);
         let takes_others = (&before.settings, before.other.as_ref()) != (&self.settings, other);
-        if !takes_others
-            || !is_same
+        if !is_same
             || is_parallel(&camera) != is_parallel(&before.camera)
             || before.other.is_some() != self.comparing.is_some()
         {
             return None;
         }
         let whole = self.at_rest(&Settings { size_px: self.window_px(), ..before.settings.clone() });
-        let (which, settings) = match self.pace.is_finest() {
-            true => (Use::Still, whole),
-            false => (Use::Moving, self.coarse(&whole)),
+        let (which, settings) = match (takes_others, self.pace.is_finest()) {
+            (false, _) => (Use::Moving, self.as_moved(&whole)?),
+            (true, true) => (Use::Still, whole),
+            (true, false) => (Use::Moving, self.coarse(&whole)),
         };
         let Settings { size_px, lod, .. } = settings;
         let other = before.other.iter().map(|other| (Use::Other, Settings { size_px, lod, ..other.clone() }));
@@ -175,5 +175,13 @@ impl Viewer {
         pictures.iter().try_for_each(check).ok()?;
         let input = self.input_at;
         Some(Choice { input, ..self.choice_of(pictures, Some(camera), "moving") })
+    }
+
+    /// As coarse as what moved last, where the pace has others since, which may have other pipelines.
+    fn as_moved(&self, whole: &Settings) -> Option<Settings> {
+        let (moving, window_px) = self.moving.as_ref()?;
+        let Settings { size_px, lod, .. } = *moving;
+        let settings = Settings { size_px, lod, ..whole.clone() };
+        (*window_px == whole.size_px && settings == *moving).then_some(settings)
     }
 }

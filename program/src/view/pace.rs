@@ -71,11 +71,11 @@ impl Pace {
         }
     }
 
-    /// This one, and those that it may come to next: coarser, and finer.
-    pub fn and_next(&self) -> impl Iterator<Item = Self> + '_ {
-        let steps = [Some(self.step), Some(self.step + 1), self.step.checked_sub(1)];
-        let steps = steps.into_iter().flatten().filter(|step| *step < STEPS.len());
-        steps.map(|step| Self { step, ..self.clone() })
+    /// All steps, this one first, then those that it may come to next.
+    pub fn and_others(&self) -> impl Iterator<Item = Self> + '_ {
+        let mut steps: Vec<usize> = (0..STEPS.len()).collect();
+        steps.sort_by_key(|step| (step.abs_diff(self.step), *step < self.step));
+        steps.into_iter().map(|step| Self { step, ..self.clone() })
     }
 
     /// A picture has moved.
@@ -129,18 +129,23 @@ impl Pace {
         }
     }
 
-    /// Learns what a moving frame has cost. `compiles`: pipelines were made for it, so that the next one may cost far less.
-    pub fn learn(&mut self, secs: f64, compiles: bool) {
+    /// Learns what a moving frame has cost. `is_special`: pipelines were made for it, or memory, so that the next one may cost far less.
+    pub fn learn(&mut self, secs: f64, is_special: bool) {
         self.has_moved = true;
         let (scale, _) = STEPS[self.step];
-        if !compiles {
+        if !is_special {
             let as_large_secs = secs / (scale * scale);
             self.moving_secs = Some(as_large_secs);
             self.expected_secs = self.whole_over_moving.unwrap_or(1.0) * as_large_secs;
         }
+        let is_far_too_slow = secs > 4.0 * GOAL_SECS;
         if secs > 1.15 * GOAL_SECS && self.step + 1 < STEPS.len() {
             // Several at once where it is far too slow.
-            let by = if secs > 4.0 * GOAL_SECS && !compiles { 3 } else { 1 };
+            let by = match (is_special, is_far_too_slow) {
+                (true, false) => 0,
+                (true, true) | (false, false) => 1,
+                (false, true) => 3,
+            };
             (self.step, self.fast) = ((self.step + by).min(STEPS.len() - 1), 0);
         } else if secs < 0.5 * GOAL_SECS && self.step > 0 {
             self.fast += 1;
@@ -250,11 +255,21 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_whose_pipelines_were_made_tells_little_of_the_next() {
+    fn a_frame_whose_pipelines_or_memory_were_made_tells_little_of_the_next() {
         let (mut sure, mut unsure) = (Pace::default(), Pace::default());
+        sure.learn(0.1, false);
+        unsure.learn(0.1, true);
+        assert!((sure.step, unsure.step) == (1, 0));
         sure.learn(2.0, false);
         unsure.learn(2.0, true);
-        assert!((sure.step, unsure.step) == (3, 1) && sure.waits() && !unsure.waits());
+        assert!((sure.step, unsure.step) == (4, 1) && sure.waits() && !unsure.waits());
+    }
+
+    #[test]
+    fn all_steps_are_at_hand_the_nearest_first_and_the_coarser_of_two() {
+        let pace = Pace { step: 2, ..Pace::default() };
+        let steps: Vec<usize> = pace.and_others().map(|pace| pace.step).collect();
+        assert_eq!(steps, [2, 3, 1, 4, 0, 5, 6, 7, 8, 9]);
     }
 
     #[test]

@@ -190,13 +190,16 @@ impl Viewer {
         };
         let is_light = !self.encoding.is_plain();
         let (light, background) = (is_light.then_some(self.encoding), self.settings.background);
-        let show = ShowDesc { window_px, light, background, shown };
+        let show = ShowDesc { window_px, light, background, shown, is_ahead: choice.hidden.is_some() };
         let shown = self.prepared.is_some().then_some((pictures, show));
         let (what, input, hidden) = (choice.what, choice.input, choice.hidden);
         let desc = FrameDesc { views: &views, shown, before: self.shown, overlay, what, input };
         let done = self.gpu.draw(&desc)?;
         let (finished, asked) = (self.gpu.finished(), views.len());
         let drawn = drawn.filter(|_| finished > 0);
+        if let (Some(Use::Moving), Some((_, settings))) = (drawn, choice.pictures.first()) {
+            self.moving = Some((settings.clone(), window_px));
+        }
         if finished > 0 {
             self.looks_for_costs = self.shows_costs().then(|| Instant::now() + COST);
         }

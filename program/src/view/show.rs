@@ -35,6 +35,8 @@ pub struct ShowDesc {
     pub background: Option<[f32; 3]>,
     /// How they are shown.
     pub shown: Shown,
+    /// Nothing new is: the pipeline of pictures that are not of the window's size runs, too, so that the first one that moves finds it compiled.
+    pub is_ahead: bool,
 }
 
 /// A picture that was drawn.
@@ -146,17 +148,19 @@ impl Show {
         // SAFETY: this function's contract: pictures of this device that live as long as the frame.
         let set = unsafe { pool.set(&self.set, &given) }?;
         let fits = pictures.iter().all(|picture| picture.size_px == desc.window_px);
-        let pipeline = self.pipeline(cache, desc.constants(fits))?;
         let pushed = desc.pushed();
-        let raw = self.device.raw();
-        // SAFETY: this function's contract; set and constants are of the pipeline's layout.
-        unsafe {
-            raw.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, pipeline);
-            let point = vk::PipelineBindPoint::GRAPHICS;
-            raw.cmd_bind_descriptor_sets(commands, point, self.layout.raw(), 0, &[set], &[]);
-            let bytes = bytemuck::bytes_of(&pushed);
-            raw.cmd_push_constants(commands, self.layout.raw(), self.layout.push_stages(), 0, bytes);
-            raw.cmd_draw(commands, 3, 1, 0, 0);
+        for fits in (desc.is_ahead && fits).then_some(false).into_iter().chain([fits]) {
+            let pipeline = self.pipeline(cache, desc.constants(fits))?;
+            let raw = self.device.raw();
+            // SAFETY: this function's contract; set and constants are of the pipeline's layout.
+            unsafe {
+                raw.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, pipeline);
+                let point = vk::PipelineBindPoint::GRAPHICS;
+                raw.cmd_bind_descriptor_sets(commands, point, self.layout.raw(), 0, &[set], &[]);
+                let bytes = bytemuck::bytes_of(&pushed);
+                raw.cmd_push_constants(commands, self.layout.raw(), self.layout.push_stages(), 0, bytes);
+                raw.cmd_draw(commands, 3, 1, 0, 0);
+            }
         }
         Ok(())
     }

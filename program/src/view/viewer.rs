@@ -89,8 +89,10 @@ pub struct Viewer {
     pub pace: Pace,
     /// When the picture last moved, until it rests.
     pub moved: Option<Instant>,
-    /// The frame before was one of those that move.
-    pub was_moving: bool,
+    /// So many frames in a row are of those that move.
+    pub moving_frames: u32,
+    /// The last one of them, and the window's size then.
+    pub moving: Option<(Settings, [u32; 2])>,
     /// The last input, until the whole picture answers to it.
     pub input_at: Option<Instant>,
     /// What is shown is not the scene, or not from the camera, of now.
@@ -181,7 +183,8 @@ impl Viewer {
             measured: None,
             pace: Pace::default(),
             moved: None,
-            was_moving: false,
+            moving_frames: 0,
+            moving: None,
             input_at: None,
             is_stale: true,
             is_unsure: true,

@@ -7,6 +7,7 @@ mod copies;
 mod drag;
 mod edits;
 mod faults;
+mod hand;
 mod paged;
 mod random;
 mod rest;

@@ -3,6 +3,7 @@
 use std::{
     fs,
     io::{BufRead as _, BufReader},
+    os::unix::fs::FileExt as _,
     process::{Child, Command, Stdio},
     sync::atomic::{AtomicU32, Ordering},
     thread,
@@ -26,7 +27,7 @@ pub struct Shot {
 }
 
 impl Screen {
-    /// A server with a screen of 1280x1000 pixels.
+    /// A server with a screen of 1280x1024 pixels.
     pub fn new() -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let folder = TempDir::new().unwrap();
@@ -41,7 +42,7 @@ impl Screen {
                 "-noreset",
                 "-screen",
                 "0",
-                "1280x1000x24",
+                "1280x1024x24",
                 "-nolisten",
                 "tcp",
                 "-fbdir",
@@ -74,6 +75,21 @@ impl Screen {
             row.chunks_exact(4).map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect::<Vec<_>>()
         };
         Shot { size, pixels: (0..size[1] as usize).flat_map(row).collect() }
+    }
+
+    /// What is seen now in a square, each row as the server keeps it: next to nothing is read, so that who looks often takes no time from who draws.
+    pub fn square(&self, [left, top]: [u32; 2], side: u32) -> Vec<u8> {
+        let file = fs::File::open(self.folder.path().join("Xvfb_screen0")).unwrap();
+        let mut header = [0; 80];
+        file.read_exact_at(&mut header, 0).unwrap();
+        let field = |i: usize| u32::from_be_bytes(header[4 * i..4 * i + 4].try_into().unwrap());
+        let first = u64::from(field(0) + 12 * field(19));
+        let row_bytes = 4 * side as usize;
+        let mut pixels = vec![0; row_bytes * side as usize];
+        for (y, row) in (top..).zip(pixels.chunks_exact_mut(row_bytes)) {
+            file.read_exact_at(row, first + u64::from(y * field(12) + 4 * left)).unwrap();
+        }
+        pixels
     }
 
     /// Runs xdotool, which moves the mouse and presses keys by the extension XTEST.

@@ -1,12 +1,6 @@
 //! Pipelines that run for the first time: a driver that compiles them then, as lavapipe does where it finds nothing on disk, holds up a step of a picture, not the window.
 
-use std::{
-    fs,
-    io::Write as _,
-    process::Stdio,
-    thread,
-    time::{Duration, Instant},
-};
+use std::{fs, io::Write as _, process::Stdio, thread, time::Duration};
 
 use super::{
     CAMERA,
@@ -36,18 +30,6 @@ fn camera(screen: &Screen, view: &mut View<'_>) -> Vec<String> {
     // The message over the picture goes.
     screen.key("Escape");
     line(view).unwrap().split_whitespace().map(str::to_owned).collect()
-}
-
-/// Waits for at least so many pictures that nobody sees, and until no more come. The last is from afar.
-fn wait_for_hidden(view: &mut View<'_>, least: usize) {
-    let mut seen = (0, Instant::now());
-    view.wait("pictures that nobody sees are drawn", |view| {
-        let count = view.printed().lines().filter(|line| line.starts_with("ahead ")).count();
-        if count != seen.0 {
-            seen = (count, Instant::now());
-        }
-        count >= least && seen.1.elapsed() > Duration::from_secs(8)
-    });
 }
 
 #[test]
@@ -85,7 +67,7 @@ fn pipelines_that_never_ran_are_compiled_step_by_step_and_what_changes_meanwhile
     let turned = words.chain(camera.iter().map(String::as_str)).collect::<Vec<_>>();
     view.wait_for(&render(&folder, &turned));
     // Nothing is left that never ran.
-    wait_for_hidden(&mut view, 1);
+    view.wait_for_hidden(1);
     let printed = view.printed().len();
     screen.drag([160, 120], [200, 110], 1);
     view.wait("a picture comes", |view| frames(&view.printed(), printed).contains(&"whole"));
@@ -176,7 +158,7 @@ fn what_a_hand_comes_to_has_run_before() {
     let printing = [&words[..], &["--print-frames"]].concat();
     let mut view = View::open_in(&screen, &folder, &printing, true, &environment);
     view.wait_for(&render(&folder, &words));
-    wait_for_hidden(&mut view, 6);
+    view.wait_for_hidden(6);
     // How coarse these are follows from what all of it costs: not from a frame that had others compiled.
     let all = view.printed();
     let (before, _) = all.split_once("\nahead ").unwrap();

@@ -173,6 +173,18 @@ impl<'a> View<'a> {
         self.wait(what, |view| is_so(&view.screen.shot(size)));
     }
 
+    /// Waits for at least so many pictures that nobody sees, and until no more come. The last is from afar.
+    pub fn wait_for_hidden(&mut self, least: usize) {
+        let mut seen = (0, Instant::now());
+        self.wait("pictures that nobody sees are drawn", |view| {
+            let count = view.printed().lines().filter(|line| line.starts_with("ahead ")).count();
+            if count != seen.0 {
+                seen = (count, Instant::now());
+            }
+            count >= least && seen.1.elapsed() > Duration::from_secs(8)
+        });
+    }
+
     /// The camera, as the program prints it where it is copied.
     pub fn camera(&mut self) -> Vec<String> {
         let before = self.stdout.lock().unwrap().len();
