@@ -10,8 +10,8 @@ use crate::console;
 /// How soon the cost of a frame is looked for again that is not done.
 pub const COST: Duration = Duration::from_millis(10);
 
-/// The first frames of a hand take their images and their memory, so that the next ones may cost far less. What they have cost is known two frames later.
-const FIRST_FRAMES: u32 = 2;
+/// What is known of costs until so many frames of a hand is of those that take their images and their memory: the next ones may cost far less.
+const FIRST_FRAMES: u32 = 3;
 
 impl Viewer {
     /// Learns what frames have cost.
@@ -23,7 +23,7 @@ impl Viewer {
         // With what it takes to show the picture, too.
         let period = self.gpu.take_period().filter(|_| is_moving && self.moving_frames > 0);
         self.moving_frames = if is_moving { self.moving_frames.saturating_add(1) } else { 0 };
-        let is_first = self.moving_frames <= FIRST_FRAMES + 1;
+        let is_first = self.moving_frames <= FIRST_FRAMES;
         for which in Use::ALL {
             let (costs, all) = self.gpu.take_costs(which)?;
             for cost in costs {

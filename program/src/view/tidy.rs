@@ -52,7 +52,7 @@ impl Viewer {
             self.tidies.all = None;
             let _ = self.gpu.forget_frames(self.shown);
         }
-        let _ = self.gpu.tidy(self.comparing.is_some());
+        let _ = self.gpu.tidy(self.comparing.is_some(), all);
         if self.options.prints_frames {
             let _ = console::print(&printed::at_rest(self.gpu.headless.device()));
         }

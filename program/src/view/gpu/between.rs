@@ -95,11 +95,11 @@ impl Gpu {
     }
 
     /// Gives back what is of no use before the next frame, while the device has nothing to do and no picture is drawn in steps. `is_comparing`: the picture by another method is of use.
+    /// `for_long`: what the allocator keeps is given back, too, which takes a tenth of a second where a driver has compiled much: not where a hand only pauses.
     ///
     /// # Errors
     /// Whatever the driver answers, such as a lost device.
-    pub fn tidy(&mut self, is_comparing: bool) -> Result<()> {
-        self.dropped = 0;
+    pub fn tidy(&mut self, is_comparing: bool, for_long: bool) -> Result<()> {
         for picture in &mut self.pictures {
             picture.stop();
             picture.give_back_excess();
@@ -110,7 +110,10 @@ impl Gpu {
         }
         // SAFETY: nothing is being recorded now.
         unsafe { self.headless.queue().wait_idle() }?;
-        memory::give_back();
+        if for_long {
+            self.dropped = 0;
+            memory::give_back();
+        }
         Ok(())
     }
 
