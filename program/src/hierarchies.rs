@@ -58,8 +58,8 @@ fn load_by_view(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
         (true, [first, ..]) => Loaded::of_nothing(first.ball()),
         _ => load_scene_with_hierarchies(&others, bars)?,
     };
-    for (octree, report) in octrees.files.iter().zip(octrees.reports()) {
-        bars.note(&report.summary);
+    for (octree, mut report) in octrees.files.iter().zip(octrees.reports()) {
+        tell_of(&mut report, inputs, bars)?;
         let because = format!("{} says so", report.name);
         loaded.ball = loaded.ball.union(octree.ball());
         loaded.up = loaded.up.take().or(Some(FoundUp { direction: glam::DVec3::Z, because }));
@@ -95,12 +95,7 @@ fn load_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     };
     for file in opened {
         let (ball, mut report) = (file.ball(), report(&file));
-        report.notes.extend(inputs.options.columns_unused());
-        report.notes.iter().for_each(|note| bars.note(&format!("{}: {note}", report.name)));
-        if inputs.strict {
-            refuse_losses(&report)?;
-        }
-        bars.note(&report.summary);
+        tell_of(&mut report, inputs, bars)?;
         let up = file
             .header()
             .up
@@ -112,6 +107,20 @@ fn load_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
         loaded.hierarchies.push(file);
     }
     loaded.map_or_else(|| load_scene(inputs, bars), Ok)
+}
+
+/// Tells what a file holds that was opened, and what of the command line is of no use for it.
+///
+/// # Errors
+/// As [`refuse_losses`], with `strict`.
+fn tell_of(report: &mut InputReport, inputs: &Inputs, bars: &Bars) -> Result<()> {
+    report.notes.extend(inputs.options.columns_unused());
+    report.notes.iter().for_each(|note| bars.note(&format!("{}: {note}", report.name)));
+    if inputs.strict {
+        refuse_losses(report)?;
+    }
+    bars.note(&report.summary);
+    Ok(())
 }
 
 /// What a file holds, in numbers and words.

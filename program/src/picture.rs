@@ -94,9 +94,10 @@ impl PictureArguments {
         self.settings.over(Settings::default())
     }
 
-    /// The names of the settings that the user gave.
+    /// The names of the settings that the user gave, and of what else makes a picture.
     pub fn said(&self) -> impl Iterator<Item = &'static str> {
-        self.settings.said()
+        let light = (!self.lights.is_empty()).then_some("light");
+        self.settings.said().chain(self.encoding.said()).chain(light)
     }
 
     /// The settings where a scene file says something of the picture, not yet checked.

@@ -4,7 +4,7 @@ use clap::Args;
 use surfel::{
     Progress as _, Result,
     reference::{self, Picture, Pixel},
-    scene::{Edges, Settings},
+    scene::{Edges, Settings, Storage},
 };
 
 use crate::{
@@ -16,6 +16,7 @@ use crate::{
     picture::PictureArguments,
     pictures::{self, Colors, Dump},
     scene::load_scene,
+    unused::{self, Asked},
 };
 
 const EXAMPLES: &str = "Examples:
@@ -43,9 +44,15 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let camera = CameraChoice::of(&picture.camera)?;
     let (output, format) = outputs::check(picture, "reference.png", &None)?;
     let bars = Bars::new();
-    let mut loaded = load_scene(&picture.input.inputs(), &bars)?;
-    picture.light(&mut loaded.scene);
+    let inputs = picture.input.inputs();
+    let mut loaded = load_scene(&inputs, &bars)?;
     let settings = Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
+    let said: Vec<_> = picture.said().collect();
+    unused::tell(said.iter().copied(), &inputs, &loaded);
+    let storage = Storage::default();
+    let asked = Asked { settings: &settings, storage, loaded: &loaded, is_drawn: true, is_written: true };
+    unused::tell_of_reference(&said, &asked);
+    picture.light(&mut loaded.scene);
     let camera = camera.camera(&loaded, part.whole_px)?;
     if picture.print_camera {
         console::print(&camera::words(&camera))?;

@@ -1,10 +1,12 @@
 //! `surfel render`: a scene on a Vulkan device.
 
+mod together;
+
 use std::path::PathBuf;
 
 use clap::Args;
 use surfel::{
-    Error, Result,
+    Result,
     renderer::Headless,
     report::RunReport,
     scene::{Ball, Budget, CameraPath, CropView, Edges, Epsilon, Settings, Storage},
@@ -31,8 +33,10 @@ use crate::{
     scene_file_keys::KEYS,
     settings::{Given, Taken},
     steps::Steps,
-    unused,
+    unused::{self, Asked},
 };
+use together::refuse_beside_a_film;
+pub use together::refuse_what_is_of_films;
 
 const EXAMPLES: &str = "Examples:
   surfel render
@@ -117,14 +121,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
             draw_film(headless, arguments, &part, (&camera, path.as_ref()), &output)
         });
     }
-    if arguments.film.fps.is_some() {
-        return Err(Error::option("--fps", "has no meaning for a picture; expected --path or --turntable"));
-    }
-    if let Some(output) = arguments.picture.output.as_deref().filter(|name| film::is_name_of_film(name)) {
-        let problem =
-            format!("{}: is a film's, or its pictures'; expected --path or --turntable", output.display());
-        return Err(Error::option("--output", problem));
-    }
+    refuse_what_is_of_films(arguments)?;
     let output = outputs::check(&arguments.picture, "surfel.png", &arguments.timings)?;
     let mut steps = Steps::default();
     let headless = steps.time("open the device", || arguments.device.open())?;
@@ -132,22 +129,6 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
         headless.renderer.check_settings(&part.settings)?;
         draw(headless, arguments, &part, &camera, &output, steps)
     })
-}
-
-/// Refuses what is of one picture.
-fn refuse_beside_a_film(arguments: &RenderArguments) -> Result<()> {
-    let given = [
-        ("--timings", arguments.timings.is_some()),
-        ("--explain", arguments.explain),
-        ("--pick", !arguments.pick.pixels.is_empty()),
-        ("--dump", arguments.picture.dump.is_some()),
-    ];
-    match given.iter().find(|(_, is_given)| *is_given) {
-        Some((option, _)) => {
-            Err(Error::option(*option, "is of one picture; expected no --path or --turntable"))
-        }
-        None => Ok(()),
-    }
 }
 
 /// What `--explain` says of pictures that have several samples for this.
@@ -207,7 +188,7 @@ fn draw(
     if !arguments.pick.pixels.is_empty() {
         let report = PickReport::gather(headless, view, crop, &arguments.pick.pixels)?;
         console::print(&to_json(&report)?)?;
-        if picture.output.is_none() && picture.dump.is_none() {
+        if !arguments.is_written() {
             return Ok(());
         }
     }
@@ -224,17 +205,21 @@ fn load(
     let picture = &arguments.picture;
     let inputs = picture.input.inputs();
     let mut loaded = load_scene_by_view(&inputs, bars)?;
-    let memory = arguments.hierarchies.budget_memory.map(|_| "budget-memory");
-    unused::tell(picture.said().chain(arguments.storage.said()).chain(memory), &inputs, &loaded);
+    let said = arguments.said();
+    unused::tell(said.iter().copied(), &inputs, &loaded);
     oddities::tell(&loaded.scene, &loaded.ball);
     origin::tell(&loaded.scene, &loaded.ball);
     picture.light(&mut loaded.scene);
     // What belongs to no scene was checked before it was loaded.
     let settings =
         Settings { size_px: part.settings.size_px, ..picture.settings_of(&loaded, &headless.renderer) };
+    let storage = arguments.storage.over(Storage::default());
+    let (is_drawn, is_written) = (arguments.is_drawn(), arguments.is_written());
+    let asked = Asked { settings: &settings, storage, loaded: &loaded, is_drawn, is_written };
+    unused::tell_of_picture(&said, &asked);
     let scene = &mut loaded.scene;
     scene.numbered = !arguments.pick.pixels.is_empty();
-    scene.storage = arguments.storage.over(Storage::default());
+    scene.storage = storage;
     scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
     scene.levels = settings.wants_levels();
     scene.budget = settings.budget != Budget::Unlimited;

@@ -193,6 +193,9 @@ fn describe(inputs: &Inputs, bars: &Bars) -> Result<Described> {
                 "has no meaning for meshes that are drawn as triangles; expected no --representation mesh";
             return Err(Error::option("--resample", problem));
         }
+        (true, ..) if inputs.options.columns.is_some() => {
+            return Err(Error::option("--columns", built_in));
+        }
         (true, ..) => described.objects.push(ObjectDescription::of_built_in(BuiltIn::Relief)),
         _ => {}
     }
@@ -231,10 +234,13 @@ fn describe(inputs: &Inputs, bars: &Bars) -> Result<Described> {
         }
     }
     let files = described.objects.iter().filter_map(|object| match &object.source {
-        Source::File(path) => Some(path),
+        Source::File(path) => Some(path.as_path()),
         _ => None,
     });
-    files.map(PathBuf::as_path).try_for_each(check_there)?;
+    if inputs.options.columns.is_some() && files.clone().next().is_none() {
+        bars.note("without --columns, as no object is of a file");
+    }
+    files.into_iter().try_for_each(check_there)?;
     Ok(described)
 }
 

@@ -1,13 +1,15 @@
 //! Options that were given and that mean nothing for what is drawn: told in a line, for whoever gave them waits for what they do.
 
-use std::path::PathBuf;
+mod reasons;
 
 use surfel::{
     load::is_scene_file,
-    scene::{Opacity, Scene},
+    scene::{Opacity, OptionTable, Scene},
 };
 
 use crate::{console, inputs::Inputs, scene::Loaded};
+pub use reasons::Asked;
+use reasons::REASONS;
 
 /// Options that change splats, and nothing of triangles.
 const OF_SPLATS: [&str; 15] = [
@@ -31,38 +33,84 @@ const OF_SPLATS: [&str; 15] = [
 /// Options that change splats, and triangles that are transparent.
 const OF_SPLATS_AND_GLASS: [&str; 4] = ["accumulate", "epsilon", "layers", "last-layer"];
 
+/// Options of how a device draws what the reference draws, too.
+const OF_DEVICES: [&str; 8] =
+    ["tile-invocations", "tile-memory", "kernel-eval", "cull", "lod", "lod-steps", "budget", "outlines"];
+
 /// Tells of options without effect where a scene is drawn as triangles alone. `said` are the names of all that the user gave.
 pub fn tell(said: impl Iterator<Item = &'static str>, inputs: &Inputs, loaded: &Loaded) {
-    if loaded.is_read_by_view() || !is_triangles(&loaded.scene) {
-        return;
+    let of_splats = of_splats(loaded);
+    let unused: Vec<&str> = said.filter(|name| of_splats.contains(name)).collect();
+    let splats = match inputs.files.iter().all(|file| is_scene_file(file)) {
+        true => "representation = \"splats\" of its objects",
+        false => "--representation splats",
+    };
+    say(&unused, &format!("this scene is drawn as triangles; {splats} draws it as splats"));
+}
+
+/// The same of a picture, for every other reason. Of what is given as it is by default anyway nothing is told.
+pub fn tell_of_picture(said: &[&'static str], asked: &Asked<'_>) {
+    let mut told = of_splats(asked.loaded);
+    for (options, why) in REASONS {
+        let is_left =
+            |name: &&str| options.contains(name) && !told.contains(name) && !asked.has_default(name);
+        let left: Vec<&str> = said.iter().copied().filter(is_left).collect();
+        let because = if left.is_empty() { None } else { why(asked) };
+        if let Some(because) = because {
+            say(&left, &because);
+            told.extend(*options);
+        }
     }
-    let is_glass = |object: &surfel::scene::MeshObject| object.mesh.colors.opacity() != Opacity::Opaque;
-    let has_glass = loaded.scene.meshes.iter().any(is_glass);
-    let is_unused =
-        |name: &&str| OF_SPLATS.contains(name) || !has_glass && OF_SPLATS_AND_GLASS.contains(name);
-    let unused: Vec<String> = said.filter(is_unused).map(|name| format!("--{name}")).collect();
-    if let Some(line) = line(&unused, &inputs.files) {
+}
+
+/// The same of a picture by the reference, which has no device's ways to draw it.
+pub fn tell_of_reference(said: &[&'static str], asked: &Asked<'_>) {
+    let is_unused = |name: &&str| OF_DEVICES.contains(name) && !asked.has_default(name);
+    let (unused, others): (Vec<&str>, Vec<&str>) = said.iter().partition(|name| is_unused(name));
+    say(&unused, "the reference draws each splat by itself, in arithmetic of 64 bits");
+    tell_of_picture(&others, asked);
+}
+
+/// Tells that options have no effect, and why, if there are any.
+pub fn say(options: &[&str], because: &str) {
+    if let Some(line) = line(options, because) {
         console::say(&line);
     }
 }
 
-fn is_triangles(scene: &Scene) -> bool {
-    let has_splats = !scene.objects.is_empty() || !scene.hybrids.is_empty() || !scene.leveled.is_empty();
-    !has_splats && !scene.meshes.is_empty()
+/// Whether the option of this name is as it is by default; one that is in no table is not.
+pub fn has_default<S: OptionTable>(settings: &S, name: &str) -> bool {
+    let setting = S::OPTIONS.iter().find(|setting| setting.name == name);
+    setting.is_some_and(|setting| (setting.get)(settings) == (setting.get)(&S::default()))
 }
 
-fn line(unused: &[String], files: &[PathBuf]) -> Option<String> {
-    let have = match unused {
+/// The options that mean nothing for a scene because it is drawn as triangles alone.
+fn of_splats(loaded: &Loaded) -> Vec<&'static str> {
+    if !is_triangles(loaded) {
+        return Vec::new();
+    }
+    let is_glass = |object: &surfel::scene::MeshObject| object.mesh.colors.opacity() != Opacity::Opaque;
+    match loaded.scene.meshes.iter().any(is_glass) {
+        true => OF_SPLATS.to_vec(),
+        false => [&OF_SPLATS[..], &OF_SPLATS_AND_GLASS].concat(),
+    }
+}
+
+/// Whether a scene is drawn as triangles alone.
+pub fn is_triangles(loaded: &Loaded) -> bool {
+    let Scene { objects, hybrids, leveled, meshes, .. } = &loaded.scene;
+    let has_splats = !objects.is_empty() || !hybrids.is_empty() || !leveled.is_empty();
+    !loaded.is_read_by_view() && !has_splats && !meshes.is_empty()
+}
+
+fn line(options: &[&str], because: &str) -> Option<String> {
+    let have = match options {
         [] => return None,
         [_] => "has",
         _ => "have",
     };
-    let splats = match files.iter().all(|file| is_scene_file(file)) {
-        true => "representation = \"splats\" of its objects",
-        false => "--representation splats",
-    };
-    let options = joined(unused);
-    Some(format!("{options} {have} no effect: this scene is drawn as triangles; {splats} draws it as splats"))
+    let options: Vec<String> = options.iter().map(|name| format!("--{name}")).collect();
+    Some(format!("{} {have} no effect: {because}", joined(&options)))
 }
 
 /// Names in a row, as a sentence has them.
@@ -91,18 +139,10 @@ mod tests {
     }
 
     #[test]
-    fn the_line_names_all_and_what_to_type() {
-        let of = |names: &[&str], file: &str| {
-            let names: Vec<String> = names.iter().map(|name| format!("--{name}")).collect();
-            line(&names, &[file.into()])
-        };
-        let because = "no effect: this scene is drawn as triangles";
-        assert_eq!(of(&[], "a.obj"), None);
-        let one = format!("--lod has {because}; --representation splats draws it as splats");
-        assert_eq!(of(&["lod"], "a.obj"), Some(one));
-        let three = format!(
-            "--lod, --cull and --order have {because}; representation = \"splats\" of its objects draws it as splats"
-        );
-        assert_eq!(of(&["lod", "cull", "order"], "a.toml"), Some(three));
+    fn the_line_names_all_and_why() {
+        assert_eq!(line(&[], "why"), None);
+        assert_eq!(line(&["lod"], "why").as_deref(), Some("--lod has no effect: why"));
+        let three = line(&["lod", "cull", "order"], "why");
+        assert_eq!(three.as_deref(), Some("--lod, --cull and --order have no effect: why"));
     }
 }

@@ -77,6 +77,19 @@ mod tests {
     #[test]
     fn the_declared_arguments_are_consistent() {
         Arguments::command().debug_assert();
+        // Which asserts nothing where assertions are left out, as in `--release`.
+        for command in Arguments::command().get_subcommands() {
+            let mut seen = std::collections::HashSet::new();
+            for option in command.get_arguments() {
+                let names = [
+                    Some(option.get_id().as_str()),
+                    option.get_long().filter(|long| option.get_id() != *long),
+                ];
+                for name in names.into_iter().flatten() {
+                    assert!(seen.insert(name.to_owned()), "surfel {}: {name} twice", command.get_name());
+                }
+            }
+        }
     }
 
     #[test]

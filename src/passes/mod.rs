@@ -35,7 +35,9 @@ pub(crate) use crate::passes::place::PLANES_BYTES;
 pub use crate::passes::place::{Planes, Tints};
 pub use crate::passes::plan::budget::count_drawn;
 pub(crate) use crate::passes::plan::budget::within_budget;
-pub(crate) use crate::passes::plan::digits::{beyond_f32, check as check_digits, floors, unused_levels};
+pub(crate) use crate::passes::plan::digits::{
+    beyond_f32, check as check_digits, floors, unused_levels, unused_sums,
+};
 pub use crate::passes::plan::draws::{Draw, draws};
 pub(crate) use crate::passes::plan::lights::check as check_lights;
 pub use crate::passes::plan::mesh_draws::{MeshDraw, mesh_draws};

@@ -198,6 +198,7 @@ impl Renderer {
             beyond_f32: passes::beyond_f32(scene, &frame, camera)
                 .into_iter()
                 .chain(passes::unused_levels(scene, &frame, settings))
+                .chain(passes::unused_sums(&frame, settings))
                 .collect(),
             levels: levels(&draws, settings),
             floors: passes::floors(&frame),

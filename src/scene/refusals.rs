@@ -3,6 +3,9 @@
 use super::{Camera, Filter, Object, Opacity, Rasterizer, Scene, Settings, Shading, Shapes};
 use crate::error::{Error, Result};
 
+/// What meshes are, in a sentence, that are not made splats.
+pub(crate) const TRIANGLES: &str = "drawn as triangles";
+
 impl Settings {
     /// Refuses methods that only make something of rays that meet in an eye, where the camera's are parallel.
     ///
@@ -51,7 +54,7 @@ impl Settings {
             .chain(leveled)
             .filter(|(_, opacity)| *opacity == Opacity::Transparent)
             .try_for_each(|(name, _)| self.check_eye_dome(name, "transparent"))?;
-        scene.meshes.iter().try_for_each(|mesh| self.check_eye_dome(&mesh.name, "drawn as triangles"))?;
+        scene.meshes.iter().try_for_each(|mesh| self.check_eye_dome(&mesh.name, TRIANGLES))?;
         let is_elliptic = |object: &Object| matches!(object.splats.shapes, Shapes::Ellipses { .. });
         scene.objects.iter().try_for_each(|object| self.check_object(&object.name, is_elliptic(object)))
     }
@@ -64,8 +67,13 @@ impl Settings {
         if self.shading != Shading::EyeDome {
             return Ok(());
         }
-        let problem =
-            format!("edl: {object} is {what}, it holds for opaque splats; expected another shading");
+        let expected = match what {
+            TRIANGLES => {
+                "--representation splats (of a scene file's object, representation = \"splats\"), or another shading"
+            }
+            _ => "another shading",
+        };
+        let problem = format!("edl: {object} is {what}, it holds for opaque splats; expected {expected}");
         Err(Error::option("--shading", problem))
     }
 

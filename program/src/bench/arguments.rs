@@ -81,7 +81,7 @@ pub struct BenchArguments {
 
     /// Frames timed of each method, in turn with the floor: in pairs after an untimed one, and as many again for the times
     /// of their passes; floor has as many rounds of single frames
-    #[arg(long, value_name = "N", default_value_t = 20, help_heading = "Device and measurement")]
+    #[arg(long, value_name = "N", default_value_t = Self::FRAMES, help_heading = "Device and measurement")]
     #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: u32,
 
@@ -208,6 +208,9 @@ impl Taken for Common {
 }
 
 impl BenchArguments {
+    /// Frames where nobody says how many.
+    pub const FRAMES: u32 = 20;
+
     /// The settings that all methods have in common.
     pub fn settings(&self) -> Settings {
         if matches!(self.table, Bench::I1 | Bench::I2) {

@@ -19,6 +19,7 @@ mod p2;
 mod slides;
 mod table1;
 mod transition;
+mod unused;
 
 use surfel::{
     Error, Result,
@@ -54,6 +55,7 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
         return Err(Error::option("--model", "bench layers draws its own balls"));
     }
     arguments.check_lists()?;
+    unused::tell(arguments);
     outputs::check(arguments)?;
     let baseline = gate::read(arguments)?;
     let mut headless = match arguments.table.needs_device() {
@@ -104,7 +106,7 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
     let measured = headless.map_or(Ok(()), |headless| measure(headless, &mut context, &mut report));
     context.bars.clear();
     measured?;
-    if arguments.device.validate {
+    if arguments.device.validate && arguments.table.needs_device() {
         report.flags.push("measured under validation: the times are worthless".to_owned());
     }
     Ok(report)

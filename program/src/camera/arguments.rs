@@ -12,8 +12,19 @@ use crate::{
 };
 
 /// All that says something of the camera but a file, which says it all.
-const PARTS: [&str; 11] =
-    ["eye", "view", "azimuth", "elevation", "target", "up", "fov", "orthographic", "ortho", "zoom", "near"];
+pub const PARTS: [&str; 11] = [
+    "eye",
+    "view",
+    "azimuth",
+    "elevation",
+    "target",
+    "up",
+    "fov",
+    "orthographic",
+    "ortho",
+    "camera_zoom",
+    "near",
+];
 
 /// The camera.
 #[derive(Args)]
@@ -68,7 +79,7 @@ pub struct CameraArguments {
     pub ortho: bool,
 
     /// Show what is in the middle so many times as large, from the same eye [default: 1]
-    #[arg(long, value_name = "TIMES", value_parser = parse::number("times", 1e-6..=1e6), allow_hyphen_values = true)]
+    #[arg(long, id = "camera_zoom", value_name = "TIMES", value_parser = parse::number("times", 1e-6..=1e6), allow_hyphen_values = true)]
     pub zoom: Option<f64>,
 
     /// The depth in front of which nothing is drawn, in the scene's unit [default: a millionth of the distance from eye to target; 0 of

@@ -15,7 +15,7 @@ use surfel::{
     scene::{Ball, Camera, CameraParts, PictureHeight, View, toward_eye},
 };
 
-pub use arguments::{CameraArguments, Target};
+pub use arguments::{CameraArguments, PARTS, Target};
 pub use path_file::{read as read_path, text as path_text};
 pub use words::{degrees, words};
 

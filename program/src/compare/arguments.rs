@@ -9,7 +9,7 @@ use surfel::{
 };
 
 use crate::{
-    camera::CameraArguments,
+    camera::{CameraArguments, PARTS},
     device::DeviceArguments,
     inputs::{INPUTS, InputArguments},
     parse,
@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// The options that `--zoom` decides by itself.
-const ZOOM_HAS_ITS_OWN: &str = "inputs representation resample seed strict columns allow_outside time_size camera eye target up fov rasterizer accumulate kernel_eval \
+const ZOOM_HAS_ITS_OWN: &str = "inputs representation resample seed strict columns allow_outside time_size camera rasterizer accumulate kernel_eval \
     quick backfaces frames pictures";
 
 const HELP: &str = "\
@@ -50,6 +50,7 @@ const EXAMPLES: &str = "Examples:
 /// Put methods side by side: what each costs, and how far its picture is from the exact one
 #[derive(Args)]
 #[command(long_about = format!("Put methods side by side.\n\n{HELP}\n\n{INPUTS}"), after_help = EXAMPLES)]
+#[command(mut_arg("camera_zoom", |zoom| zoom.long("camera-zoom")))]
 pub struct CompareArguments {
     #[command(flatten)]
     pub input: InputArguments,
@@ -67,7 +68,7 @@ pub struct CompareArguments {
     pub samples: u32,
 
     /// In place of a scene: a checkerboard in perspective, each filter at distances from 0.05 to 50 pixels a splat
-    #[arg(long, conflicts_with_all = ZOOM_HAS_ITS_OWN.split(' '))]
+    #[arg(long, conflicts_with_all = ZOOM_HAS_ITS_OWN.split(' ').chain(PARTS))]
     pub zoom: bool,
 
     /// Distances of --zoom [default: 25]

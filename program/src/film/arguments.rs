@@ -12,7 +12,7 @@ use crate::parse;
 pub struct FilmArguments {
     /// Draw a picture for each of --frames cameras along the path in this file, evenly spread from its begin to its end. The output is a name
     /// with the picture's number, such as out%04d.png, or .mp4, for which ffmpeg is run. Pictures that are there already, of the same job, are kept
-    #[arg(long, value_name = "PATH.json", conflicts_with_all = ["turntable", "camera", "eye", "view", "azimuth", "elevation", "target", "up", "fov", "orthographic", "ortho", "zoom", "near"])]
+    #[arg(long, value_name = "PATH.json", conflicts_with_all = ["turntable", "camera", "eye", "view", "azimuth", "elevation", "target", "up", "fov", "orthographic", "ortho", "camera_zoom", "near"])]
     pub path: Option<PathBuf>,
 
     /// The same, with the camera carried once around its target, about what is up, in that many seconds

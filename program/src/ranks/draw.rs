@@ -8,7 +8,8 @@ use surfel::{
     prepare::PreparedScene,
     renderer::{Frame, Headless},
     scene::{
-        Budget, Camera, CropView, Edges, Epsilon, OptionValue as _, Rasterizer, Settings, Shading, Storage,
+        Accumulate, Budget, Camera, CropView, Edges, Epsilon, OptionValue as _, Rasterizer, Settings,
+        Shading, Storage,
     },
 };
 
@@ -22,9 +23,9 @@ use crate::{
     outputs::{self, PictureFormat},
     picture::Drawn,
     pictures,
-    render::RenderArguments,
+    render::{RenderArguments, refuse_what_is_of_films},
     scene::{Loaded, upload},
-    unused,
+    unused::{self, Asked},
 };
 
 /// What this process has of a picture.
@@ -87,6 +88,10 @@ fn check(arguments: &RenderArguments) -> Result<(Drawn, CameraChoice, (PathBuf, 
     if drawn.settings.samples.0 > 1 {
         return refused("--samples");
     }
+    if drawn.settings.accumulate == Accumulate::F16 {
+        return refused("--accumulate f16");
+    }
+    refuse_what_is_of_films(arguments)?;
     let inputs = &arguments.picture.input.inputs;
     let other = inputs.iter().find(|input| !is_levels_file(input));
     match (other, inputs.is_empty()) {
@@ -109,9 +114,6 @@ fn read(
 ) -> Result<Part> {
     let (picture, bars) = (&arguments.picture, Bars::new());
     let mut loaded = load_scene_with_hierarchies(&picture.input.inputs(), &bars)?;
-    if ranks.is_first() {
-        unused::tell(picture.said().chain(arguments.storage.said()), &picture.input.inputs(), &loaded);
-    }
     picture.light(&mut loaded.scene);
     // One method for all, by which levels are drawn, whatever a process happens to have of them.
     let mut settings = Settings { edges: Edges::Hard, ..drawn.settings.clone() };
@@ -119,6 +121,13 @@ fn read(
         settings.rasterizer = Rasterizer::Compute;
     }
     headless.renderer.check_settings(&settings)?;
+    let storage = arguments.storage.over(Storage::default());
+    if ranks.is_first() {
+        let said = arguments.said();
+        unused::tell(said.iter().copied(), &picture.input.inputs(), &loaded);
+        let asked = Asked { settings: &settings, storage, loaded: &loaded, is_drawn: true, is_written: true };
+        unused::tell_of_picture(&said, &asked);
+    }
     let (camera, crop) = drawn.view(camera.camera(&loaded, drawn.whole_px)?)?;
     if camera.is_orthographic() {
         let problem = "not with several processes (mpirun), whose depth would begin at different places";
@@ -139,7 +148,7 @@ fn read(
             return Err(Error::option("--epsilon", problem));
         }
     }
-    scene.storage = arguments.storage.over(Storage::default());
+    scene.storage = storage;
     scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
     scene.levels = settings.wants_levels();
     let readers = Readers { number: ranks.number(), count: ranks.count() };

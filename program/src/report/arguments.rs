@@ -127,6 +127,9 @@ impl ReportArguments {
         let line = line.given("--model", self.model.as_ref().filter(|_| !matches!(name, "layers" | "i3")));
         let line = line.given("--splats", splats).given("--size", size);
         let line = line.given("--plot", ["table1", "i3"].contains(&name).then(|| format!("{name}.svg")));
+        if matches!(name, "p1" | "i3") {
+            return line;
+        }
         let line = self.on_device(self.with_frames(line));
         if self.device.validate { line.word("--validate") } else { line }
     }

@@ -8,7 +8,8 @@ use surfel::selftest::Pattern;
 use crate::parse;
 
 /// The options that `--list` has nothing to do with.
-const NOT_WITH_LIST: [&str; 7] = ["junit", "json", "known", "no_known", "retries", "device", "no_validate"];
+const NOT_WITH_LIST: [&str; 8] =
+    ["junit", "json", "known", "no_known", "retries", "device", "no_validate", "verbose"];
 
 const HELP: &str = "\
 Draw every hard scene with every method and compare it with the oracle in 64 bits, under validation: for those who change \

@@ -7,7 +7,7 @@ use std::{
 
 use surfel::{
     Error, ErrorKind, Result,
-    scene::{Budget, Settings, Storage},
+    scene::{Settings, Storage},
     vk::Messages,
 };
 use winit::{
@@ -111,8 +111,8 @@ impl<'a> App<'a> {
             camera,
             lights: self.arguments.lights.clone(),
             storage: self.arguments.storage.over(Storage::default()),
-            budget: self.settings.budget != Budget::Unlimited,
-            said: self.arguments.settings.said().chain(self.arguments.storage.said()).collect(),
+            settings: self.settings.clone(),
+            said: self.arguments.said(),
         };
         let loader = Loader::new(self.proxy.clone(), limits, wants);
         loader.open(self.arguments.input.inputs(), gpu.window_px());

@@ -13,7 +13,7 @@ use std::{
 use surfel::{
     Error, Result,
     prepare::{PreparedScene, SplatSetLayout, prepare},
-    scene::{Light, Scene, Storage},
+    scene::{Budget, Light, LodSteps, Scene, Settings, Storage},
     vk::{Device, Limits},
 };
 use winit::event_loop::EventLoopProxy;
@@ -72,8 +72,8 @@ pub struct Wants {
     /// In the place of a scene's own, if there are any.
     pub lights: Vec<Light>,
     pub storage: Storage,
-    /// Frames have a budget of splats, of which all have to be known.
-    pub budget: bool,
+    /// What frames are drawn with at first. Of a budget of splats all have to be known.
+    pub settings: Settings,
     /// Names of the options that the user gave.
     pub said: Vec<&'static str>,
 }
@@ -181,7 +181,8 @@ impl Worker {
 
     fn open(&self, files: Inputs, size_px: [u32; 2]) -> Result<Document> {
         let mut loaded = load_scene_with_hierarchies(&files, &self.bars)?;
-        let Wants { camera, lights, storage, budget, said } = &self.wants;
+        let Wants { camera, lights, storage, settings, said } = &self.wants;
+        let budget = settings.budget != Budget::Unlimited;
         unused::tell(said.iter().copied(), &files, &loaded);
         let camera = camera.camera(&loaded, size_px)?;
         let in_pages = *storage == Storage::default() && !budget;
@@ -191,6 +192,23 @@ impl Worker {
             }
             _ => None,
         };
+        if !unused::is_triangles(&loaded) {
+            let has = |name| said.contains(&name).then_some(name);
+            if paged.is_none() {
+                let because = "it is for an opaque .surfel file by itself, without --budget, --order and --splat-format";
+                unused::say(has("budget-memory").as_slice(), because);
+            }
+            let has_levels = budget || loaded.scene.has_levels() || !loaded.hierarchies.is_empty();
+            if !has_levels && loaded.scene.splat_count() <= LEVELS_FROM {
+                let levels = has("lod").filter(|_| settings.lod.wants_levels());
+                let steps = has("lod-steps").filter(|_| settings.lod_steps != LodSteps::Hard);
+                let unused: Vec<&str> = levels.into_iter().chain(steps).collect();
+                let because = format!(
+                    "the window makes levels of detail of more than {LEVELS_FROM} splats; --budget makes them of fewer"
+                );
+                unused::say(&unused, &because);
+            }
+        }
         for mut file in std::mem::take(&mut loaded.hierarchies).into_iter().filter(|_| paged.is_none()) {
             loaded.scene.leveled.push(file.load(None, u64::MAX, &self.bars)?.object);
         }
@@ -200,7 +218,7 @@ impl Worker {
             scene.lights.clone_from(lights);
         }
         scene.storage = *storage;
-        (scene.budget, scene.levels) = (*budget, *budget);
+        (scene.budget, scene.levels) = (budget, budget);
         scene.numbered = true;
         let balls = extents::balls(&mut scene);
         Ok(Document { scene: Arc::new(scene), ball, balls, camera, picture, inputs, files, paged })

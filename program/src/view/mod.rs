@@ -126,6 +126,14 @@ pub struct ViewArguments {
     storage: Given<Storage>,
 }
 
+impl ViewArguments {
+    /// The names of all that the user gave of how things are drawn.
+    fn said(&self) -> Vec<&'static str> {
+        let memory = self.budget_memory.map(|_| "budget-memory");
+        self.settings.said().chain(self.storage.said()).chain(memory).collect()
+    }
+}
+
 /// Keys and mouse, as help has them.
 fn manual_of_keys() -> String {
     let line = |(key, help): (&str, &str)| format!("  {key:<24} {help}");

@@ -25,7 +25,7 @@ fn cloud(count: usize) -> Vec<CloudPoint> {
 }
 
 /// A folder with both files of a cloud.
-fn folder(count: usize) -> Folder {
+pub fn folder(count: usize) -> Folder {
     let folder = Folder::new();
     write(&folder, &Octree::of(&cloud(count), [0; 3], 1 << 16, 32), 3);
     folder

@@ -29,7 +29,7 @@ fn polygons_and_points_at_rest_have_the_samples_that_render_takes() {
     for (file, others) in [
         ("a.obj", &[][..]),
         ("a.obj", &["--tonemap", "agx", "--cull", "list"]),
-        ("a.ply", &["--samples", "4"]),
+        ("a.ply", &["--samples", "4", "--budget-memory", "9MB", "--lod-steps", "blend"]),
         ("a.ply", &["--rasterizer", "affine-center"]),
     ] {
         let words = [&[file, "--size", "320x240"], &CAMERA[..], others].concat();
@@ -45,9 +45,16 @@ fn polygons_and_points_at_rest_have_the_samples_that_render_takes() {
         view.wait_for(&render(&folder, &words));
         screen.key("h");
         view.wait_for(&whole);
-        // What triangles ignore is told.
-        let told = view.end().stderr.contains("--cull has no effect: this scene is drawn as triangles");
-        assert_eq!(told, others.contains(&"--cull"));
+        // What does nothing for them is told.
+        let told = view.end().stderr;
+        for (option, because) in [
+            ("--cull", "this scene is drawn as triangles"),
+            ("--budget-memory", "it is for an opaque .surfel file by itself"),
+            ("--lod-steps", "the window makes levels of detail of more than 300000 splats"),
+        ] {
+            let line = format!("{option} has no effect: {because}");
+            assert_eq!(told.contains(&line), others.contains(&option), "{told}");
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use crate::passes::plan::{FramePlan, SurfacePlan, draws::Draw, range::DepthRange
 use crate::{
     error::{Error, Result},
     prepare::{Chunk, Placed, PreparedScene, Rebase},
-    scene::{Camera, Settings},
+    scene::{Accumulate, Camera, Settings},
     shaders::config::LEAST_SHIFT,
 };
 
@@ -142,6 +142,16 @@ pub(crate) fn unused_levels(
     let draws_any = draws_some(&frame.opaque) || draws_some(&frame.transparent);
     (has_levels && settings.tau_px() > 0.0 && !draws_any).then(|| {
         "levels of detail (--lod, --budget) are for --rasterizer auto and compute, and for opaque points; the scene itself is drawn".to_owned()
+    })
+}
+
+/// That sums of 16 bits were asked for and are made nowhere, in a sentence.
+pub(crate) fn unused_sums(frame: &FramePlan<'_>, settings: &Settings) -> Option<String> {
+    let mut drawn =
+        [&frame.opaque, &frame.transparent].into_iter().filter(|part| !part.splats.is_empty()).peekable();
+    let is_asked = settings.accumulate == Accumulate::F16 && drawn.peek().is_some();
+    (is_asked && drawn.all(|part| part.settings.accumulate == Accumulate::F32)).then(|| {
+        "sums have 32 bits: 16 (--accumulate f16) are for points, and not for --shading edl".to_owned()
     })
 }
 
