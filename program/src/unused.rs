@@ -125,7 +125,7 @@ pub fn joined(names: &[impl AsRef<str>]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use surfel::scene::{OptionTable as _, Settings, Storage};
+    use surfel::scene::{Encoding, OptionTable as _, Settings, Storage};
 
     use super::*;
 
@@ -133,9 +133,12 @@ mod tests {
     fn every_name_is_an_option() {
         let settings = Settings::OPTIONS.iter().map(|setting| setting.name);
         let storage = Storage::OPTIONS.iter().map(|setting| setting.name);
-        let known: Vec<&str> = settings.chain(storage).chain(["budget-memory"]).collect();
-        let unknown = OF_SPLATS.iter().chain(&OF_SPLATS_AND_GLASS).find(|name| !known.contains(name));
-        assert_eq!(unknown, None);
+        let encoding = Encoding::OPTIONS.iter().map(|setting| setting.name);
+        let others = ["budget-memory", "light", "explain"];
+        let known: Vec<&str> = settings.chain(storage).chain(encoding).chain(others).collect();
+        let of_reasons = REASONS.iter().flat_map(|(names, _)| *names);
+        let mut all = OF_SPLATS.iter().chain(&OF_SPLATS_AND_GLASS).chain(of_reasons);
+        assert_eq!(all.find(|name| !known.contains(name)), None);
     }
 
     #[test]

@@ -116,21 +116,3 @@ impl Asked<'_> {
             || !octrees.files.is_empty()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use surfel::scene::{Encoding, OptionTable as _};
-
-    use super::*;
-
-    #[test]
-    fn every_name_is_an_option() {
-        let settings = Settings::OPTIONS.iter().map(|setting| setting.name);
-        let storage = Storage::OPTIONS.iter().map(|setting| setting.name);
-        let encoding = Encoding::OPTIONS.iter().map(|setting| setting.name);
-        let others = ["budget-memory", "light", "explain"];
-        let known: Vec<&str> = settings.chain(storage).chain(encoding).chain(others).collect();
-        let unknown = REASONS.iter().flat_map(|(names, _)| *names).find(|name| !known.contains(name));
-        assert_eq!(unknown, None);
-    }
-}
