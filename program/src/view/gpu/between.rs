@@ -113,6 +113,7 @@ impl Gpu {
         if for_long {
             self.dropped = 0;
             memory::give_back();
+            memory::sort();
         }
         Ok(())
     }
