@@ -53,7 +53,9 @@ impl Viewer {
         }
         let mut all = Vec::new();
         if !self.pace.is_finest() {
-            let paces = self.pace.and_others().filter(|pace| !pace.is_finest());
+            // All steps where another device compiles for each of them, else those that may come next.
+            let most = if self.ahead.is_some() { usize::MAX } else { 3 };
+            let paces = self.pace.and_others().take(most).filter(|pace| !pace.is_finest());
             all.extend(
                 paces.map(|pace| {
                     (Hidden::Moving(pace.step()), navigation.camera, self.coarse_by(&pace, whole))

@@ -148,7 +148,7 @@ impl Viewer {
         [next, soon]
     }
 
-    /// The picture as it was, of a camera that has moved since: with the settings of before, or those of now as what moved last was drawn; `None` where that can't be drawn.
+    /// The picture as it was, of a camera that has moved since: with the settings of before, or those of now as coarse as what moved last; `None` where that can't be drawn.
     pub fn as_before(&self) -> Option<Choice> {
         let before = self.drawn.as_ref()?;
         let camera = self.camera().filter(|camera| *camera != before.camera)?;
@@ -164,7 +164,7 @@ impl Viewer {
         }
         let whole = self.at_rest(&Settings { size_px: self.window_px(), ..before.settings.clone() });
         let (which, settings) = match (takes_others, self.pace.is_finest()) {
-            (false, _) => (Use::Moving, self.as_moved(&whole)?),
+            (false, _) => (Use::Moving, self.coarse_by(self.moving.as_ref()?, &whole)),
             (true, true) => (Use::Still, whole),
             (true, false) => (Use::Moving, self.coarse(&whole)),
         };
@@ -175,13 +175,5 @@ impl Viewer {
         pictures.iter().try_for_each(check).ok()?;
         let input = self.input_at;
         Some(Choice { input, ..self.choice_of(pictures, Some(camera), "moving") })
-    }
-
-    /// As coarse as what moved last, where the pace has others since, which may have other pipelines.
-    fn as_moved(&self, whole: &Settings) -> Option<Settings> {
-        let (moving, window_px) = self.moving.as_ref()?;
-        let Settings { size_px, lod, .. } = *moving;
-        let settings = Settings { size_px, lod, ..whole.clone() };
-        (*window_px == whole.size_px && settings == *moving).then_some(settings)
     }
 }

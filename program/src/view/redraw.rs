@@ -197,8 +197,8 @@ impl Viewer {
         let done = self.gpu.draw(&desc)?;
         let (finished, asked) = (self.gpu.finished(), views.len());
         let drawn = drawn.filter(|_| finished > 0);
-        if let (Some(Use::Moving), Some((_, settings))) = (drawn, choice.pictures.first()) {
-            self.moving = Some((settings.clone(), window_px));
+        if drawn == Some(Use::Moving) && !self.is_unsure && !is_step {
+            self.moving = Some(self.pace.clone());
         }
         if finished > 0 {
             self.looks_for_costs = self.shows_costs().then(|| Instant::now() + COST);

@@ -91,8 +91,8 @@ pub struct Viewer {
     pub moved: Option<Instant>,
     /// So many frames in a row are of those that move.
     pub moving_frames: u32,
-    /// The last one of them, and the window's size then.
-    pub moving: Option<(Settings, [u32; 2])>,
+    /// How coarse the last one of them was whose pipelines had all run before.
+    pub moving: Option<Pace>,
     /// The last input, until the whole picture answers to it.
     pub input_at: Option<Instant>,
     /// What is shown is not the scene, or not from the camera, of now.

@@ -113,7 +113,6 @@ impl Gpu {
         if for_long {
             self.dropped = 0;
             memory::give_back();
-            memory::sort();
         }
         Ok(())
     }
