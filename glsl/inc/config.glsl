@@ -237,7 +237,7 @@
 // Other sizes.
 #define CLIP_VECTORS 6          // Vectors of four floats of the clip curves of a splat: three for each of two curves.
 #define CLIP_RECORD_VECTORS 10  // Vectors of a projected splat's curves: those, and four that tell which tiles they cut.
-#define KERNEL_TEXTURE_SIDE 256 // Texels along a side of the kernel's texture.
+#define KERNEL_TEXTURE_SIDE 257 // Texels along a side of the kernel's texture; no power of two, so that its image has no more of them (one_shape.rs).
 #define BLOCK_SPLATS 256        // Splats of a chunk that have bounds of their own; the last block may have fewer.
 #define LIST_GROUP_SIZE 64      // Invocations of a workgroup, one a word of bits, that marks or lists splats.
 #define FLOOR_GROUP_SIZE 256    // Invocations of a workgroup that precomputes points of the floor.

@@ -50,11 +50,11 @@ fn fewest_px(hard: &Hard) -> usize {
 
 /// The tolerances for kernels from a texture.
 ///
-/// Bilinear interpolation between 256 texels over a diameter is wrong by at most `h²/8 · (|k_uu| + |k_vv|)`, h = 2/255, and
+/// Bilinear interpolation between 257 texels over a diameter is wrong by at most `h²/8 · (|k_uu| + |k_vv|)`, h = 2/256, and
 /// half floats hold weights to 2⁻¹² of themselves. Second derivatives along u and v together: 2/σ² for a Gaussian (at the
 /// middle), below 60 for ψ_E(6, 1.5, 3) (by numerical search).
 fn of_kernel_texture(kernel: Kernel, exact: &Errors) -> Errors {
-    let texel = 2.0 / 255.0_f64;
+    let texel = 2.0 / 256.0_f64;
     let curvature = match kernel {
         Kernel::Gaussian { sigma } => 2.0 / f64::from(sigma).powi(2),
         Kernel::PsiE { .. } => 60.0,

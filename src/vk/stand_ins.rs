@@ -17,8 +17,8 @@ use crate::error::Result;
 /// A float that every device samples, filters and stores without naming it in the shader.
 const IMAGE_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
-/// Bytes of the buffers: as much as a uniform block of ours.
-pub(crate) const STAND_IN_BYTES: u64 = 1024;
+/// Bytes of the buffers: as much as a uniform block of ours, and no power of two (`one_shape` of the graph's transients).
+pub(crate) const STAND_IN_BYTES: u64 = 1040;
 
 const FLOATS: &str = "stand-in of floats";
 const INTEGERS: &str = "stand-in of integers";
@@ -27,7 +27,7 @@ const INTEGERS: &str = "stand-in of integers";
 const IMAGE: ImageDesc<'_> = ImageDesc {
     name: "stand-in",
     format: IMAGE_FORMAT,
-    extent: vk::Extent2D { width: 1, height: 1 },
+    extent: vk::Extent2D { width: 3, height: 3 },
     usage: vk::ImageUsageFlags::from_raw(
         vk::ImageUsageFlags::SAMPLED.as_raw() | vk::ImageUsageFlags::STORAGE.as_raw(),
     ),
@@ -41,7 +41,7 @@ fn buffer_desc(name: &str) -> BufferDesc<'_> {
     BufferDesc { name, size: STAND_IN_BYTES, usage }
 }
 
-/// A small buffer of each kind and an image of one texel, whose contents mean nothing; made when a set first needs one, for pipelines
+/// A small buffer of each kind and an image of a few texels, whose contents mean nothing; made when a set first needs one, for pipelines
 /// are compiled for devices, too, that have no memory.
 pub struct StandIns {
     device: Device,

@@ -4,6 +4,7 @@
 mod blocks;
 mod context;
 mod kept;
+mod one_shape;
 mod part;
 mod profiler;
 mod recorder;

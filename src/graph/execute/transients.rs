@@ -5,13 +5,14 @@ use std::sync::Arc;
 use ash::vk;
 
 use super::{
-    super::{ImageDesc, MemoryClass, MemoryNeed, Plan, ResourceDesc, Usage},
+    super::{BufferDesc, ImageDesc, MemoryClass, MemoryNeed, Plan, ResourceDesc, Usage},
     Physical,
     blocks::Blocks,
+    one_shape,
 };
 use crate::{
     error::{Error, Result},
-    vk::{Buffer, BufferDesc, Device, Image, ImageDesc as PhysicalImageDesc, Memory},
+    vk::{Buffer, BufferDesc as PhysicalBufferDesc, Device, Image, ImageDesc as PhysicalImageDesc, Memory},
 };
 
 /// What memory a transient needs on a device, for [`super::super::Graph::compile`].
@@ -31,8 +32,9 @@ pub fn memory_need(device: &Device, desc: &ResourceDesc, usage: Usage) -> Result
             unsafe { device.raw().get_device_image_memory_requirements(&info, &mut requirements) };
         }
         (ResourceDesc::Buffer(desc), Usage::Buffer(usage)) => {
-            BufferDesc { name: NAME, size: desc.size_bytes, usage }.check(device)?;
-            let create = vk::BufferCreateInfo::default().size(desc.size_bytes).usage(usage);
+            let desc = buffer_desc(device, NAME, *desc, usage);
+            desc.check(device)?;
+            let create = vk::BufferCreateInfo::default().size(desc.size).usage(usage);
             let info = vk::DeviceBufferMemoryRequirements::default().create_info(&create);
             // SAFETY: as above.
             unsafe { device.raw().get_device_buffer_memory_requirements(&info, &mut requirements) };
@@ -132,7 +134,8 @@ impl Transients {
                 (ResourceDesc::Buffer(desc), Usage::Buffer(usage)) => {
                     let texels =
                         usage.contains(vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER).then_some(desc.texels);
-                    let desc = BufferDesc { name: &resource.name, size: room(place), usage };
+                    let room = BufferDesc { size_bytes: room(place), ..desc };
+                    let desc = buffer_desc(device, &resource.name, room, usage);
                     let buffer = Buffer::placed(device, desc, block, offset)?;
                     Some(Object::Buffer(match texels {
                         Some(format) => buffer.with_texels(&resource.name, format)?,
@@ -183,35 +186,16 @@ fn image_desc<'a>(
     desc: ImageDesc,
     usage: vk::ImageUsageFlags,
 ) -> PhysicalImageDesc<'a> {
-    let is_written = usage.contains(vk::ImageUsageFlags::STORAGE);
-    let limits = &device.facts().limits;
-    let extent = match is_written && limits.is_cpu {
-        true => one_shape(desc.extent, limits.max_image_side),
-        false => desc.extent,
-    };
+    let extent = one_shape::image_extent(&device.facts().limits, desc, usage);
     PhysicalImageDesc { name, format: desc.format, extent, usage }
 }
 
-/// A row or column more where there is a power of two of them. llvmpipe compiles a shader once for images with such sides and once more for others: the largest shader of a frame, which takes seconds,
-/// whenever a window comes to such a size or leaves it. Shaders never ask images that they write for their sides but for the half of an even number of rows, which stays.
-fn one_shape(vk::Extent2D { width, height }: vk::Extent2D, most: u32) -> vk::Extent2D {
-    let beside = |side: u32| (side..=most).find(|side| !side.is_power_of_two()).unwrap_or(side);
-    vk::Extent2D { width: beside(width), height: beside(height) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_side_is_a_power_of_two_and_half_of_the_rows_stays_half() {
-        for side in 1..5000 {
-            let vk::Extent2D { width, height } =
-                one_shape(vk::Extent2D { width: side, height: 2 * side }, 1 << 14);
-            assert!(!width.is_power_of_two() && !height.is_power_of_two());
-            assert!((side..=side + 2).contains(&width) && height / 2 == side);
-        }
-        let most = vk::Extent2D { width: 64, height: 64 };
-        assert_eq!(one_shape(most, 64), most);
-    }
+fn buffer_desc<'a>(
+    device: &Device,
+    name: &'a str,
+    BufferDesc { size_bytes, texels }: BufferDesc,
+    usage: vk::BufferUsageFlags,
+) -> PhysicalBufferDesc<'a> {
+    let size = one_shape::buffer_bytes(&device.facts().limits, size_bytes, texels, usage);
+    PhysicalBufferDesc { name, size, usage }
 }

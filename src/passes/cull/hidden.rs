@@ -35,6 +35,7 @@ pub(crate) fn list_unhidden<'a>(
     pass.finish(move |pass| {
         pass.bind(pipeline);
         pass.bind_sets(layout, 0, &[pass.set(Place::Cells)?])?;
+        pass.push(layout, &inputs.settings.size_px)?;
         pass.dispatch(blocks);
         Ok(())
     });

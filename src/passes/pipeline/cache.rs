@@ -140,7 +140,8 @@ impl Shaders {
         )?;
         let fetched = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: compute };
         let cells_set = set("cells of depth", &[fetched, buffer])?;
-        let cells_layout = PipelineLayout::new(device, "cells of depth", &[&cells_set], 0, compute)?;
+        let size_px = size_of::<[u32; 2]>() as u32;
+        let cells_layout = PipelineLayout::new(device, "cells of depth", &[&cells_set], size_px, compute)?;
         let has_tiles = device.facts().limits.storage_buffers_a_stage >= STORAGE_BUFFERS;
         let tiles = has_tiles
             .then(|| TileLayouts::new(device, splat_set.set(), &sums_set, &stand_ins))
