@@ -168,7 +168,7 @@ pub fn make(
     let mut journal = Journal::open(names.journal())?;
     let mut ready: Option<Ready> = None;
     let total = shots.len() as u64;
-    let mut drawn = 0_u64;
+    let (mut drawn, mut is_told) = (0_u64, false);
     for (number, shot) in (0..total).zip(shots) {
         let place = names.of(number);
         let mut made_of = job.clone();
@@ -202,6 +202,13 @@ pub fn make(
             let transparent = settings.background.is_none();
             pictures::save_picture(&place, *format, pixels.size_px, transparent, pixels.colors(*format))?;
             journal.note(number, made_of, &place)?;
+            // Once: pictures of a film have much the same to tell.
+            if !is_told {
+                let explanation = headless.renderer.explain(view.scene, view.camera, settings, &pixels.plan);
+                let notes = explanation.beyond_f32.iter();
+                notes.for_each(|note| bars.note(&format!("{}: {note}", place.display())));
+                is_told = !explanation.beyond_f32.is_empty();
+            }
             ready = Some(current);
             drawn += 1;
         }

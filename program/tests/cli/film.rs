@@ -173,6 +173,19 @@ fn a_film_is_made_by_ffmpeg_or_its_command_is_told() {
     assert!(folder.path("my film.frames/00002.png").exists());
 }
 
+/// Of what a picture tells.
+#[test]
+fn what_has_no_digits_is_told_once() {
+    let folder = folder();
+    let words = ["render", "disks.ply", "--epsilon", "1e-9"];
+    let one = done(&folder, &[&words[..], &["-o", "one.png"], &SMALL].concat()).stderr;
+    let film = ["--turntable", "1", "--frames", "3", "-o", "a%02d.png"];
+    let all = done(&folder, &[&words[..], &film, &SMALL].concat()).stderr;
+    let told = "epsilon is less than a millionth of the depth";
+    assert!(one.matches(told).count() == 1 && all.matches(told).count() == 1, "{one}{all}");
+    assert!(all.contains(&format!("a00.png: {told}")), "{all}");
+}
+
 #[test]
 fn what_makes_no_film_is_refused() {
     let folder = folder();
