@@ -42,6 +42,33 @@ bool faces_away(vec3 n, vec3 ray)
     return parts.x + parts.y + parts.z > doubt;
 }
 
+// Whether all splats of a block face away, and whether all face the eye, by a ball around their centers and a cone around their normals (src/prepare/block_bounds.rs), from where src/passes/plan/blocks/balls.rs
+// derives it of the same bounds. They are behind the colors.
+bvec2 faces_of_block(uint block)
+{
+    uint blocks = (frame.splat_count + BLOCK_SPLATS - 1) / BLOCK_SPLATS;
+    uint first = colors.length() - 2 * (blocks - block);
+    vec2 xy = unpackHalf2x16(colors[first].x);
+    vec2 z_radius = unpackHalf2x16(colors[first].y);
+    vec2 axis = unpackHalf2x16(colors[first + 1].x);
+    vec2 axis_sine = unpackHalf2x16(colors[first + 1].y);
+    vec3 center = vec3(xy, z_radius.x);
+    vec3 middle = ORTHOGRAPHIC ? frame.view_from_local_z.xyz : from_eye(center, vec3(0.0)).high;
+    vec3 origin = vec3(frame.origin_from_eye[0], frame.origin_from_eye[1], frame.origin_from_eye[2]);
+    float distance = dot(abs(middle), vec3(1.0));
+    float rounded = 1e-5 * distance + 2e-6 * dot(abs(origin), vec3(1.0));
+    float radius = ORTHOGRAPHIC ? 0.0 : frame.view_from_local_scale * z_radius.y + rounded;
+    float sine = axis_sine.y;
+    float cosine = sqrt(max(1.0 - sine * sine, 0.0)) - 1e-6;
+    float squared = dot(middle, middle);
+    float tangent = sqrt(max(squared - radius * radius, 0.0));
+    float reserve = 4e-6 * distance;
+    float sine_of_sum = radius * cosine + tangent * sine + reserve;
+    bool known = tangent * cosine - radius * sine > reserve;
+    float along = dot(vec3(axis, axis_sine.x), middle);
+    return bvec2(known && along > sine_of_sum, known && along < -sine_of_sum);
+}
+
 bool may_be_seen(uint index)
 {
     Stored stored = load_stored(index);
@@ -72,9 +99,16 @@ void main()
     if (LEVELS != LEVELS_NONE && all != 0 && !is_known(block, ALL_OF_LEVEL)) {
         bits = bits_of_level(first / WORD);
     }
-    // All invocations of a vector are in one block, so that it ends here where there is nothing to find.
+    // Once, where there are bounds. All invocations of a vector are in one block.
+    bool all_seen = !SPARSE && is_known(block, ALL_VISIBLE);
+    for (uint look = is_known(block, HAS_BOUNDS) ? 0 : 1; look < 1; look++) {
+        bvec2 faces = faces_of_block(number_of(block));
+        bits = faces.x ? 0 : bits;
+        all_seen = faces.x || faces.y && is_known(block, ALL_IN_VIEW);
+    }
+    // So a vector ends here where there is nothing to find.
     // Lists have room for those that are there, and no more.
-    for (uint index = !SPARSE && is_known(block, ALL_VISIBLE) ? end : first; index < end; index++) {
+    for (uint index = all_seen ? end : first; index < end; index++) {
         uint bit = 1u << (index - first);
         if ((bits & bit) != 0 && !may_be_seen(index)) {
             bits &= ~bit;

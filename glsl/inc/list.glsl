@@ -65,8 +65,14 @@ bool is_known(uint block, uint what)
     return (block & what) != 0;
 }
 
+// Of what is known of a block, its number alone.
+uint number_of(uint block)
+{
+    return block & HAS_BOUNDS - 1;
+}
+
 // The splat of the first bit of one of the chunk's words, which is of this block.
 uint first_splat_of(uint block, uint word)
 {
-    return (block & ~(ALL_VISIBLE | ALL_OF_LEVEL)) * BLOCK_SPLATS + word % BLOCK_WORDS * WORD;
+    return number_of(block) * BLOCK_SPLATS + word % BLOCK_WORDS * WORD;
 }

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use glam::{DVec3, Vec3};
 
 use super::{
+    facing::Normals,
     levels::BlockLevels,
     pack::{Packed, Survey},
     packed,
@@ -114,9 +115,16 @@ pub(super) struct BlockMaker {
     done: Vec<Block>,
     /// The next one's.
     next: Vec<Sample>,
+    /// All normals, where they are asked for.
+    normals: Option<Normals>,
 }
 
 impl BlockMaker {
+    /// Counts normals, too.
+    pub fn with_normals() -> Self {
+        Self { normals: Some(Normals::new()), ..Self::default() }
+    }
+
     /// Takes in the splats of a batch.
     pub fn add(&mut self, batch: &Packed, survey: &Survey) {
         for words in batch.shapes.chunks_exact(survey.shape_bytes() / 16) {
@@ -129,15 +137,18 @@ impl BlockMaker {
 
     fn end_block(&mut self) {
         self.done.push(Block::around(&self.next));
+        if let Some(normals) = &mut self.normals {
+            self.next.iter().for_each(|splat| normals.add(splat.normal, splat.center));
+        }
         self.next.clear();
     }
 
-    /// All of them.
-    pub fn finish(mut self) -> Vec<Block> {
+    /// All of them, and all normals.
+    pub fn finish(mut self) -> (Vec<Block>, Option<Normals>) {
         if !self.next.is_empty() {
             self.end_block();
         }
-        self.done
+        (self.done, self.normals)
     }
 }
 
@@ -179,7 +190,7 @@ mod tests {
                 &survey,
             );
         }
-        (maker.finish(), survey.rebase.scale)
+        (maker.finish().0, survey.rebase.scale)
     }
 
     #[test]

@@ -4,9 +4,11 @@ use ash::vk;
 use glam::DVec3;
 
 use super::{
-    block_tree::BlockTree,
+    block_bounds::{self, BOUNDS_BYTES},
+    block_tree::{BlockTree, CHILDREN},
     blocks::{Block, BlockMaker},
     clip_vectors::ClipVectors,
+    facing::Facing,
     level_words::LevelWords,
     levels::{ChunkLevels, LevelPart},
     memory::{ChunkMemory, Uploader},
@@ -15,7 +17,7 @@ use super::{
     rebase::Rebase,
     updatable::Shadow,
 };
-use crate::{error::Result, scene::Epsilon};
+use crate::{error::Result, scene::Epsilon, shaders::config::BLOCK_SPLATS};
 
 /// The most splats of a chunk, whatever the device allows: bounds the lists that hold an index for each.
 const MAX_SPLATS: usize = 1 << 22;
@@ -32,6 +34,15 @@ pub(super) fn capacity(max_storage_buffer_range: u64) -> usize {
 /// How many of that fit where they are fine.
 pub(super) fn part_of(capacity: usize, fine: bool) -> usize {
     if fine { (capacity * shape_bytes(true, false) / shape_bytes(true, true)).max(1) } else { capacity }
+}
+
+/// What is known of an object.
+#[derive(Clone, Copy)]
+pub(super) struct Traits {
+    pub closed: bool,
+    pub transparent: bool,
+    /// Its splats never change.
+    pub is_fixed: bool,
 }
 
 /// Splats of one object in buffers of their own.
@@ -88,8 +99,12 @@ pub struct Chunk {
     pub(super) shadow: Option<Shadow>,
     /// Runs of those.
     pub tree: BlockTree,
+    /// Where its splats may face, if it is closed, never changes and has more than one quad of them; then the device has [bounds](block_bounds) of its blocks, too.
+    pub facing: Option<Facing>,
     /// Bytes of a shape and of a color.
     pub(super) bytes_each: [u64; 2],
+    /// Of bounds behind its colors.
+    bounds_bytes: u64,
     /// Shapes and colors, but where a frame is only listed.
     pub(super) memory: Option<ChunkMemory>,
 }
@@ -99,15 +114,19 @@ impl Chunk {
     pub(super) fn new(
         uploader: Option<&Uploader<'_>>,
         number: usize,
-        (closed, transparent): (bool, bool),
+        Traits { closed, transparent, is_fixed }: Traits,
         (survey, levels): (&Survey, Option<(ChunkLevels, &LevelWords)>),
     ) -> Result<Self> {
         let colors = if survey.uniform_color { 1 } else { survey.count };
         let bytes_each = [survey.shape_bytes() as u64, survey.color_bytes() as u64];
+        let blocks = survey.count.div_ceil(BLOCK_SPLATS) as usize;
+        let is_bounded = closed && is_fixed && blocks > CHILDREN;
+        let bounds_bytes = if is_bounded { (blocks * BOUNDS_BYTES) as u64 } else { 0 };
         let memory = |uploader: &Uploader<'_>| {
             let buffer = |what: &str, count: usize, bytes_each: u64| {
                 // Shaders read 8 bytes of colors at once.
                 let size = (count as u64 * bytes_each).next_multiple_of(8);
+                let size = if what == "colors" { size + bounds_bytes } else { size };
                 let name = format!("{what} of chunk {number}");
                 uploader.buffer(&name, size, vk::BufferUsageFlags::STORAGE_BUFFER)
             };
@@ -152,7 +171,9 @@ impl Chunk {
             blocks: Vec::new(),
             shadow: None,
             tree: BlockTree::default(),
+            facing: None,
             bytes_each,
+            bounds_bytes,
             memory: uploader.map(memory).transpose()?.flatten(),
         })
     }
@@ -170,7 +191,11 @@ impl Chunk {
         survey: &Survey,
         progress: &mut dyn FnMut(u64),
     ) -> Result<()> {
-        let (mut first, mut blocks) = (0, BlockMaker::default());
+        let mut blocks = match self.bounds_bytes {
+            0 => BlockMaker::default(),
+            _ => BlockMaker::with_normals(),
+        };
+        let mut first = 0;
         for packed in batches.filter(|packed| packed.count > 0) {
             blocks.add(&packed, survey);
             if let Some(uploader) = &mut uploader {
@@ -179,8 +204,13 @@ impl Chunk {
             first += packed.count;
             progress(first.into());
         }
-        self.blocks = blocks.finish();
-        self.tree = BlockTree::new(&self.blocks);
+        let (blocks, normals) = blocks.finish();
+        self.tree = BlockTree::new(&blocks);
+        self.facing = normals.map(|normals| Facing::new(&normals, survey.largest_radius));
+        self.blocks = blocks;
+        if let (Some(uploader), true) = (uploader, self.bounds_bytes > 0) {
+            self.upload_bounds(uploader)?;
+        }
         Ok(())
     }
 
@@ -202,6 +232,16 @@ impl Chunk {
         if !clips.is_empty() {
             staging.push(&buffers[buffers.len() - 1], first * size_of::<ClipVectors>() as u64, clips)?;
         }
+        uploader.submit(staging)
+    }
+
+    /// Behind the colors.
+    fn upload_bounds(&self, uploader: &mut Uploader<'_>) -> Result<()> {
+        let words = block_bounds::words(&self.blocks);
+        let bytes: &[u8] = bytemuck::cast_slice(&words);
+        let Some(mut staging) = uploader.staging("upload of bounds", bytes.len() as u64)? else { return Ok(()) };
+        let Some(ChunkMemory { buffers, .. }) = &self.memory else { return Ok(()) };
+        staging.push(&buffers[1], buffers[1].size() - bytes.len() as u64, bytes)?;
         uploader.submit(staging)
     }
 

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use super::{
     PreparedScene,
-    chunk::{self, Chunk},
+    chunk::{self, Chunk, Traits},
     level_words::LevelWords,
     levels::{ChunkLevels, LevelPart, Leveled},
     memory::{To, Uploader},
@@ -258,7 +258,8 @@ impl Cut<'_, '_> {
                 self.transparent_radii += survey.sum_of_radii;
             }
             let number = self.prepared.chunks.len();
-            let traits = (part.object.closed, part.transparent);
+            let (closed, transparent) = (part.object.closed, part.transparent);
+            let traits = Traits { closed, transparent, is_fixed: !self.updatable };
             let levels = part.levels.map(|(leveled, levels)| {
                 let numbers = pack::packable(splats, which(range.clone()), survey.rebase);
                 (levels, LevelWords::of(leveled, levels, &numbers))

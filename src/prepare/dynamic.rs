@@ -9,6 +9,7 @@ use glam::{DVec3, Vec3};
 
 use super::{
     Block, Chunk, PreparedScene, RadiusStep, Rebase, SplatSetLayout,
+    chunk::Traits,
     memory::{To, Uploader},
     pack::{Survey, packed_color},
 };
@@ -149,8 +150,8 @@ impl PreparedScene {
         splats.check(super::chunk::capacity(limits.max_storage_buffer_range))?;
         let submit: &mut dyn FnMut(Staging) -> Result<()> = &mut |_| Ok(());
         let uploader = Uploader { device, layout, to: To::Device(submit) };
-        let mut chunk =
-            Chunk::new(Some(&uploader), 0, (splats.closed, splats.transparent), (&splats.survey(), None))?;
+        let traits = Traits { closed: splats.closed, transparent: splats.transparent, is_fixed: false };
+        let mut chunk = Chunk::new(Some(&uploader), 0, traits, (&splats.survey(), None))?;
         chunk.dynamic = true;
         let mut scene = Self {
             chunks: vec![chunk],

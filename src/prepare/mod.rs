@@ -5,12 +5,14 @@
 //! that origin, and where that is too much a second part (`sites.rs`).
 
 mod as_packed;
+mod block_bounds;
 mod block_tree;
 mod blocks;
 mod chunk;
 mod clip_vectors;
 mod cut;
 pub mod dynamic;
+mod facing;
 mod far_apart;
 mod level_bounds;
 mod level_words;

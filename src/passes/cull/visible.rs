@@ -151,11 +151,12 @@ pub(crate) fn list_marked<'a>(
     (bits, blocks): (Handle<Buffer>, Handle<Buffer>),
 ) -> Result<VisibleList> {
     let words = words_of(inputs.draws);
+    let most = inputs.listed.map_or(u64::MAX, |listed| listed.most_splats().max(1));
     let mut buffer = |part: &str, words: u64| {
         graph.create_buffer(format_args!("{part} of {what}"), BufferDesc::of_bytes(4 * words))
     };
     let mut starts = buffer("starts", words + 1);
-    let mut list = buffer("list", words * u64::from(WORD));
+    let mut list = buffer("list", most.min(words * u64::from(WORD)));
     let mut arguments = buffer("arguments", ARGUMENT_WORDS * inputs.draws.len() as u64);
     let (read, write) = (Access::StorageReadCompute, Access::StorageWriteCompute);
 

@@ -66,12 +66,13 @@ fn look_at(
     let balls = Balls::of(quad, eye);
     let [faces_away, faces_eye] = balls.faces(quad, eye);
     let image = balls.image(eye);
-    let (mut seen, mut whole) = (image.seen & quad.filled, image.whole);
+    let (mut seen, mut in_view) = (image.seen & quad.filled, image.whole);
+    for plane in look.planes {
+        (seen, in_view) = (seen & !balls.are_beyond(plane.as_vec4(), eye), 0);
+    }
+    let mut whole = in_view;
     if look.culls {
         (seen, whole) = (seen & !faces_away, whole & faces_eye);
-    }
-    for plane in look.planes {
-        (seen, whole) = (seen & !balls.are_beyond(plane.as_vec4(), eye), 0);
     }
     let nearest_z = balls.nearest_z().max(Vec4::splat(look.bound.nearest_z as f32));
     let most_x = image.most_x.min(Vec4::splat(look.half_image as f32));
@@ -97,6 +98,7 @@ fn look_at(
                 0..end
             },
             all_seen: is(whole),
+            all_in_view: is(in_view),
             all_of_level: true,
         };
         if let (Some(view), Some(bounds)) = (look.levels, place.of_detail.get(i)) {

@@ -11,7 +11,7 @@ use crate::passes::{
     plan::{
         blocks::{
             BlockCullView,
-            walk::{Closer, closer_runs, potentially_visible_runs},
+            walk::{Closer, closer_runs, potentially_visible_runs, run_of_all},
         },
         frame_constants::frame_constants,
         in_view::{center_and_half, in_view, nearest_z, wholly_in_view},
@@ -73,6 +73,23 @@ impl Draw<'_> {
     /// The blocks in which there may be something to see.
     pub(crate) fn potentially_visible_runs<'m>(&self, arena: &'m Arena) -> &'m [PotentiallyVisibleRun] {
         potentially_visible_runs(arena, self.chunk, &self.look())
+    }
+
+    /// The same, by one look where that is enough to tell how many splats they have at most, but not in which rows.
+    pub(crate) fn runs_at_once<'m>(&self, arena: &'m Arena) -> &'m [PotentiallyVisibleRun] {
+        let look = self.look();
+        run_of_all(arena, self.chunk, &look)
+            .unwrap_or_else(|| potentially_visible_runs(arena, self.chunk, &look))
+    }
+
+    /// Whether some of these runs are of a part of it, so that rows are known.
+    pub(crate) fn has_rows(&self, runs: &[PotentiallyVisibleRun]) -> bool {
+        self.chunk.facing.is_none() || !runs.iter().any(|run| run.blocks as usize == self.chunk.blocks.len())
+    }
+
+    /// Whether a device finds by bounds which way its blocks face.
+    pub(crate) fn has_bounds(&self) -> bool {
+        self.chunk.facing.is_some() && culls(self.variant)
     }
 
     /// The same, looked at more closely.

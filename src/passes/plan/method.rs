@@ -20,7 +20,7 @@ use crate::passes::{
         culling,
         draws::{Draw, with_hard_steps, without_levels},
         invocations::Invocations,
-        seen::PotentiallyVisibleBlocks,
+        seen::{PotentiallyVisibleBlocks, PotentiallyVisibleRun},
         tiles::TilePlan,
     },
 };
@@ -108,10 +108,11 @@ fn bands<'a>(
 ) -> Option<&'a [Band<'a>]> {
     let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
     let rows = rows_of_image(settings);
-    let seen = || {
-        let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_runs(arena)));
+    let seen_by = |runs: fn(&Draw<'a>, &'a Arena) -> &'a [PotentiallyVisibleRun]| {
+        let blocks = arena.list(splats.iter().map(|draw| runs(draw, arena)));
         PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
+    let seen = || seen_by(Draw::potentially_visible_runs);
     let drawn = Drawn::new(arena, splats);
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
     // Bands may have room for what is too large for lists of all of the image; but polygons may be drawn between two passes over all of it, and levels of detail
@@ -153,7 +154,8 @@ fn bands<'a>(
         let tightened = |seen: &PotentiallyVisibleBlocks<'_>| {
             whole.clone().tightened_to_blocks(splats, seen, settings, limits)
         };
-        let rough = seen();
+        // One look at each is enough where all that may face the eye is in one band.
+        let rough = if leaves_large(&whole) { seen() } else { seen_by(Draw::runs_at_once) };
         let tight = tightened(&rough);
         if tight.bytes() <= most_bytes {
             (rough, tight, &[][..])
@@ -163,8 +165,13 @@ fn bands<'a>(
                 let runs = arena.list(runs.map(|(draw, runs)| draw.closer_runs(arena, runs, closer)));
                 PotentiallyVisibleBlocks::new(arena, runs, rows.end)
             };
-            let close = looked_into(&rough, Closer::InPart);
-            let tight = tightened(&close);
+            let mut close = looked_into(&rough, Closer::InPart);
+            let mut tight = tightened(&close);
+            let has_rows = || splats.iter().zip(rough.chunks).all(|(draw, runs)| draw.has_rows(runs));
+            if !polygons && bands_gain(&tight, most_bytes) && !has_rows() {
+                close = looked_into(&seen(), Closer::InPart);
+                tight = tightened(&close);
+            }
             if polygons || !bands_gain(&tight, most_bytes) {
                 (close, tight, &[][..])
             } else {

@@ -19,6 +19,8 @@ pub struct PotentiallyVisibleRun {
     pub rows: Range<u32>,
     /// None of them faces away, where such are not drawn, or is nearer than the near plane or beside the image.
     pub all_seen: bool,
+    /// The same whichever way they face.
+    pub all_in_view: bool,
     /// All of them are of the level of detail that is drawn.
     pub all_of_level: bool,
 }
@@ -26,7 +28,12 @@ pub struct PotentiallyVisibleRun {
 impl PotentiallyVisibleRun {
     /// Whether none of its splats is left out for where it is, where splats are looked for in these rows.
     pub fn is_within(&self, rows: &Range<u32>) -> bool {
-        self.all_seen && rows.start <= self.rows.start && self.rows.end <= rows.end
+        self.all_seen && self.is_in_view(rows)
+    }
+
+    /// The same whichever way they face.
+    pub fn is_in_view(&self, rows: &Range<u32>) -> bool {
+        self.all_in_view && rows.start <= self.rows.start && self.rows.end <= rows.end
     }
 
     /// Whether it may touch any of these rows.
@@ -173,6 +180,7 @@ mod tests {
             box_px: 4.0,
             rows,
             all_seen: true,
+            all_in_view: true,
             all_of_level: true,
         };
         let arena = Arena::new();
@@ -201,6 +209,7 @@ mod tests {
                 box_px: sizes_px[(i * 7 % 9) as usize],
                 rows: i % 17..i % 17 + 1 + i % 4,
                 all_seen: true,
+                all_in_view: true,
                 all_of_level: true,
             })
             .collect();

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{
     super::{
-        chunk::{Chunk, part_of},
+        chunk::{Chunk, Traits, part_of},
         pack::{Packed, inverse_overlap_in_upper_half, survey},
         pieces,
         rebase::Rebase,
@@ -52,7 +52,8 @@ impl Cut<'_, '_> {
             survey.count = piece.len() as u32;
             survey.uniform_color = false;
             survey.bounds = [DVec3::ZERO; 2];
-            let traits = (object.closed, splats.colors.opacity() != Opacity::Opaque);
+            let transparent = splats.colors.opacity() != Opacity::Opaque;
+            let traits = Traits { closed: object.closed, transparent, is_fixed: false };
             let at = self.prepared.chunks.len();
             let mut chunk = Chunk::new(self.uploader.as_ref(), at, traits, (&survey, None))?;
             let batches = pieces(piece, BATCH_SPLATS);

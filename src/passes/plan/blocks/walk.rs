@@ -83,6 +83,30 @@ pub(in super::super) fn potentially_visible_runs<'m>(
     looked_into(arena, chunk, (look, &eye), top, most, |run| !run.all_seen || !run.all_of_level)
 }
 
+/// All blocks of a chunk that lies within the view, as one run, with no more splats than may face the eye: known by one look, however many there are. `None` where more has to be looked at: where some may be outside of the
+/// view, or the eye is near; or where there is only one quad of them.
+pub(in super::super) fn run_of_all<'m>(
+    arena: &'m Arena,
+    chunk: &Chunk,
+    look: &BlockCullView<'_>,
+) -> Option<&'m [PotentiallyVisibleRun]> {
+    let facing = chunk.facing.as_ref().filter(|_| look.culls && look.levels.is_none() && look.planes.is_empty())?;
+    let end = chunk.blocks.len() as u32;
+    let mut runs = arena.growing();
+    runs.reserve(1);
+    look_at(&mut runs, Place { first: 0, each: end, end, of_detail: &[], blocks: &[] }, &facing.whole, (look, &look.eye()));
+    let Some(run) = runs.first_mut() else { return Some(&[]) };
+    if !run.all_in_view {
+        return None;
+    }
+    let eye = match look.bound.is_orthographic {
+        true => -look.view.rotation.row(2),
+        false => look.view.origin_from_eye / -look.view.view_from_local_scale,
+    };
+    run.count = facing.most(eye, look.bound.is_orthographic)?;
+    Some(runs.into_bump_slice())
+}
+
 /// These runs, and in place of some of them their parts.
 pub(in super::super) fn closer_runs<'m>(
     arena: &'m Arena,
