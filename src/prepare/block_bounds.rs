@@ -65,3 +65,6 @@ pub(super) fn words(blocks: &[Block]) -> Vec<[u32; 4]> {
 
 
 
+
+#[cfg(test)]
+mod tests;

@@ -1,10 +1,12 @@
 //! A piece of an object within the device's limits.
 
+mod upload;
+
 use ash::vk;
 use glam::DVec3;
 
 use super::{
-    block_bounds::{self, BOUNDS_BYTES},
+    block_bounds::BOUNDS_BYTES,
     block_tree::{BlockTree, CHILDREN},
     blocks::{Block, BlockMaker},
     clip_vectors::ClipVectors,
@@ -21,9 +23,6 @@ use crate::{error::Result, scene::Epsilon, shaders::config::BLOCK_SPLATS};
 
 /// The most splats of a chunk, whatever the device allows: bounds the lists that hold an index for each.
 const MAX_SPLATS: usize = 1 << 22;
-
-/// Words of levels of detail that are uploaded at once: 4 MB.
-const BATCH_WORDS: usize = 1 << 20;
 
 /// How many splats fit into buffers of this many bytes: the larger shape decides, so that it is the same for all.
 pub(super) fn capacity(max_storage_buffer_range: u64) -> usize {
@@ -210,59 +209,6 @@ impl Chunk {
         self.blocks = blocks;
         if let (Some(uploader), true) = (uploader, self.bounds_bytes > 0) {
             self.upload_bounds(uploader)?;
-        }
-        Ok(())
-    }
-
-    /// Uploads the splats from number `first` of the chunk on.
-    fn upload(&self, uploader: &mut Uploader<'_>, first: u32, packed: &Packed) -> Result<()> {
-        let shapes: &[u8] = bytemuck::cast_slice(&packed.shapes);
-        let colors: &[u8] = bytemuck::cast_slice(&packed.colors);
-        // The one color comes with the first splats.
-        let colors = if self.uniform_color && first > 0 { &[] } else { colors };
-        let clips: &[u8] = bytemuck::cast_slice(&packed.clips);
-        let bytes = (shapes.len() + colors.len() + clips.len()) as u64;
-        let Some(mut staging) = uploader.staging("upload of splats", bytes)? else { return Ok(()) };
-        let Some(ChunkMemory { buffers, .. }) = &self.memory else { return Ok(()) };
-        let first = u64::from(first);
-        staging.push(&buffers[0], first * self.bytes_each[0], shapes)?;
-        if !colors.is_empty() {
-            staging.push(&buffers[1], first * self.bytes_each[1], colors)?;
-        }
-        if !clips.is_empty() {
-            staging.push(&buffers[buffers.len() - 1], first * size_of::<ClipVectors>() as u64, clips)?;
-        }
-        uploader.submit(staging)
-    }
-
-    /// Behind the colors.
-    fn upload_bounds(&self, uploader: &mut Uploader<'_>) -> Result<()> {
-        let words = block_bounds::words(&self.blocks);
-        let bytes: &[u8] = bytemuck::cast_slice(&words);
-        let Some(mut staging) = uploader.staging("upload of bounds", bytes.len() as u64)? else { return Ok(()) };
-        let Some(ChunkMemory { buffers, .. }) = &self.memory else { return Ok(()) };
-        staging.push(&buffers[1], buffers[1].size() - bytes.len() as u64, bytes)?;
-        uploader.submit(staging)
-    }
-
-    /// Puts what decides about its levels of detail on the device, if there is one, and to its blocks.
-    pub(super) fn fill_levels(
-        &mut self,
-        uploader: Option<&mut Uploader<'_>>,
-        levels: &LevelWords,
-    ) -> Result<()> {
-        for (block, levels) in self.blocks.iter_mut().zip(&levels.blocks) {
-            block.levels = Some(Box::new(*levels));
-        }
-        self.tree = BlockTree::new(&self.blocks);
-        let Some(uploader) = uploader else { return Ok(()) };
-        let words = levels.words.chunks(BATCH_WORDS).zip((0..).step_by(BATCH_WORDS * size_of::<u32>()));
-        for (words, at) in words {
-            let bytes: &[u8] = bytemuck::cast_slice(words);
-            let batch = uploader.staging("upload of levels", bytes.len() as u64)?;
-            let (Some(mut staging), Some(memory)) = (batch, &self.memory) else { continue };
-            staging.push(&memory.buffers[2], at, bytes)?;
-            uploader.submit(staging)?;
         }
         Ok(())
     }

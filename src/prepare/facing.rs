@@ -170,3 +170,6 @@ impl Facing {
         self.normals.iter().map(of).sum()
     }
 }
+
+#[cfg(test)]
+mod tests;

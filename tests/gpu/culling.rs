@@ -6,6 +6,7 @@
 //! switch for two bounds: what is left out of a tile's corners is compared between tiles of two heights, whose corners are others;
 //! and the sizes for which lists have room between a scene and the same with a splat behind the eye, which has no bound.
 
+mod at_once;
 mod clouds;
 mod tiles;
 

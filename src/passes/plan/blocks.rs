@@ -118,6 +118,8 @@ fn look_at(
 }
 
 #[cfg(test)]
+mod at_once;
+#[cfg(test)]
 mod of_detail;
 #[cfg(test)]
 mod tests;
