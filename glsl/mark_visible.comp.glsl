@@ -12,7 +12,8 @@
 // A filter makes of half an axis l at most sqrt(l^2 + h^2) <= l + h, at the center's depth, p_z / (p_z - R) <= 8/7 of it where
 // the splat is nearest; that of adjust_paper.glsl may make both h long in one direction, 8/7 sqrt(2) h: below 2 h, the more so as the
 // image ends half a pixel beyond its last pixel's center, and that a box is larger by its margin. No filter makes a splat deeper.
-// Parallel rays show a splat within R of its center, filters aside. Nor those that a plane cuts off wholly. Any other splat is marked. So is NaN, which no comparison leaves out.
+// Parallel rays show a splat within R of its center, filters aside. Nor those that a plane cuts off wholly. A block that the host has not looked at, of which the device has bounds, is looked at as a whole first: an object that is
+// wholly within the view takes the host one look (src/passes/plan/blocks/walk.rs). Any other splat is marked. So is NaN, which no comparison leaves out.
 #version 460
 #include "inc/setup.glsl"
 #include "inc/list.glsl"
@@ -101,7 +102,7 @@ void main()
     }
     // Once, where there are bounds. All invocations of a vector are in one block.
     bool all_seen = !SPARSE && is_known(block, ALL_VISIBLE);
-    for (uint look = is_known(block, HAS_BOUNDS) ? 0 : 1; look < 1; look++) {
+    for (uint look = CULL_BACKFACES && is_known(block, HAS_BOUNDS) ? 0 : 1; look < 1; look++) {
         bvec2 faces = faces_of_block(number_of(block));
         bits = faces.x ? 0 : bits;
         all_seen = faces.x || faces.y && is_known(block, ALL_IN_VIEW);

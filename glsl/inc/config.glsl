@@ -246,7 +246,7 @@
 #define ALL_VISIBLE 1073741824 // Beside a block's number: none of its splats faces away or is outside of the view.
 #define ALL_OF_LEVEL 536870912 // Beside that: all of them are of the level of detail that is drawn.
 #define ALL_IN_VIEW 268435456  // Beside that: none of them is outside of the view.
-#define HAS_BOUNDS 134217728   // Beside that: bounds that a device has may tell which way all of them face; the largest of block's numbers is less.
+#define HAS_BOUNDS 134217728   // Beside that: bounds that a device has may tell which way all of them face. A block's number is less.
 #define DEPTH_CELLS_SIDE 8      // Pixels along a side of a cell of the depth's hierarchy, and cells along a side of a block of cells.
 
 // What is known of a clip curve.

@@ -5,7 +5,7 @@
 // Visible ones are looked for in blocks of BLOCK_SPLATS splats, those that the host lists: not those that face away, nor those elsewhere. It lists runs of blocks, of
 // all chunks one behind the other, each by the place of its first block among all that are listed, and the number of that block in its chunk. Before the runs are the rows
 // of tiles that splats are looked for in, the first, and that behind the last; and how many runs there are. Behind the runs is where each chunk's blocks begin among all, and where those of the last one end. Bits of all chunks lie one behind the other, those of each from
-// `frame.first_record` on, which begins a block. Large ones are looked for in all blocks of a chunk, which has bits of its own.
+// `frame.first_record` on, which begins a block. Beside a block's number are what the host knows of all its splats, and whether the device has bounds by which it may know more (HAS_BOUNDS). Large ones are looked for in all blocks of a chunk, which has bits of its own.
 
 #include "inc/groups.glsl"
 

@@ -98,7 +98,7 @@ pub struct Chunk {
     pub(super) shadow: Option<Shadow>,
     /// Runs of those.
     pub tree: BlockTree,
-    /// Where its splats may face, if it is closed, never changes and has more than one quad of them; then the device has [bounds](block_bounds) of its blocks, too.
+    /// Where its splats may face, if it is closed, never changes, has no levels of detail and more than one quad of them; then the device has [bounds](block_bounds) of its blocks, too.
     pub facing: Option<Facing>,
     /// Bytes of a shape and of a color.
     pub(super) bytes_each: [u64; 2],
@@ -119,7 +119,7 @@ impl Chunk {
         let colors = if survey.uniform_color { 1 } else { survey.count };
         let bytes_each = [survey.shape_bytes() as u64, survey.color_bytes() as u64];
         let blocks = survey.count.div_ceil(BLOCK_SPLATS) as usize;
-        let is_bounded = closed && is_fixed && blocks > CHILDREN;
+        let is_bounded = closed && is_fixed && levels.is_none() && blocks > CHILDREN;
         let bounds_bytes = if is_bounded { (blocks * BOUNDS_BYTES) as u64 } else { 0 };
         let memory = |uploader: &Uploader<'_>| {
             let buffer = |what: &str, count: usize, bytes_each: u64| {
@@ -253,6 +253,11 @@ impl Chunk {
     /// The descriptor set; null without memory.
     pub fn set(&self) -> vk::DescriptorSet {
         self.memory.as_ref().map_or(vk::DescriptorSet::null(), |memory| memory.set)
+    }
+
+    /// Bytes of its splats on the device, without bounds of blocks.
+    pub(crate) fn splat_bytes(&self) -> u64 {
+        self.bytes().saturating_sub(self.bounds_bytes)
     }
 
     /// Bytes of device memory.

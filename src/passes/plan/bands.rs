@@ -22,7 +22,7 @@ use crate::{
 /// Bytes that lists may take in any case.
 const LEAST_BYTES: u64 = 16_000_000;
 
-/// What a frame takes beside splats, records and lists, as a part of what these may: runs of blocks, arguments, and that blocks are listed as wholes.
+/// What a frame takes beside splats, records and lists, as a part of what these may: runs of blocks, bounds of blocks, arguments, and that blocks are listed as wholes.
 const BESIDE: u64 = 32;
 
 /// The most bands: each takes a few commands more.
@@ -62,7 +62,7 @@ pub(crate) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u64 {
     let sum = |of: fn(&Chunk) -> u64| draws.iter().map(|draw| of(draw.chunk)).sum::<u64>();
     match memory {
         TileMemory::Auto => {
-            let splats = sum(Chunk::bytes);
+            let splats = sum(Chunk::splat_bytes);
             let most = (sum(|chunk| chunk.scene_bytes) * 3 / 2).saturating_sub(splats);
             (most - most / BESIDE).max(LEAST_BYTES)
         }

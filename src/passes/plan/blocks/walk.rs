@@ -90,7 +90,7 @@ pub(in super::super) fn run_of_all<'m>(
     chunk: &Chunk,
     look: &BlockCullView<'_>,
 ) -> Option<&'m [PotentiallyVisibleRun]> {
-    let facing = chunk.facing.as_ref().filter(|_| look.culls && look.levels.is_none() && look.planes.is_empty())?;
+    let facing = chunk.facing.as_ref().filter(|_| look.culls && look.planes.is_empty())?;
     let end = chunk.blocks.len() as u32;
     let mut runs = arena.growing();
     runs.reserve(1);
