@@ -24,7 +24,8 @@ const ANGLE_RESERVE_RAD: f64 = 1e-3;
 fn toward_zero(number: f64) -> (u32, f64) {
     let single = number as f32;
     // What is rounded to f32 may be larger by a bit.
-    let single = if f64::from(single).abs() > number.abs() { f32::from_bits(single.to_bits() - 1) } else { single };
+    let single =
+        if f64::from(single).abs() > number.abs() { f32::from_bits(single.to_bits() - 1) } else { single };
     if f64::from(single).abs() < LEAST_NORMAL {
         return (0, 0.0);
     }
@@ -62,9 +63,6 @@ fn words_of(block: &Block) -> [u32; 4] {
 pub(super) fn words(blocks: &[Block]) -> Vec<[u32; 4]> {
     blocks.iter().map(words_of).collect()
 }
-
-
-
 
 #[cfg(test)]
 mod tests;

@@ -50,8 +50,12 @@ fn halves_hold_what_they_bound() {
     println!("{known} known, {slack} rad more at most");
     assert!(known > 10_000);
     // Of what lies on a bound, nothing is rounded beyond it.
-    let words = words_of(&Block { center: DVec3::new(1.0, -0.5, 0.0), radius: 0.25, axis: DVec3::Z, ..Block::EMPTY });
-    assert_eq!(words[..2].iter().flat_map(|word| halves(*word)).take(3).collect::<Vec<_>>(), [1.0, -0.5, 0.0]);
+    let words =
+        words_of(&Block { center: DVec3::new(1.0, -0.5, 0.0), radius: 0.25, axis: DVec3::Z, ..Block::EMPTY });
+    assert_eq!(
+        words[..2].iter().flat_map(|word| halves(*word)).take(3).collect::<Vec<_>>(),
+        [1.0, -0.5, 0.0]
+    );
     assert_eq!(halves(words[3])[0], 1.0);
 }
 

@@ -42,7 +42,9 @@ impl Chunk {
     pub(super) fn upload_bounds(&self, uploader: &mut Uploader<'_>) -> Result<()> {
         let words = block_bounds::words(&self.blocks);
         let bytes: &[u8] = bytemuck::cast_slice(&words);
-        let Some(mut staging) = uploader.staging("upload of bounds", bytes.len() as u64)? else { return Ok(()) };
+        let Some(mut staging) = uploader.staging("upload of bounds", bytes.len() as u64)? else {
+            return Ok(());
+        };
         let Some(ChunkMemory { buffers, .. }) = &self.memory else { return Ok(()) };
         staging.push(&buffers[1], buffers[1].size() - bytes.len() as u64, bytes)?;
         uploader.submit(staging)

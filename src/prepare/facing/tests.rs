@@ -41,7 +41,8 @@ fn no_more_splats_face_an_eye_than_is_known_and_of_a_ball_few_less() {
         assert_eq!(found.whole.counts[0], count as u32);
         for _ in 0..200 {
             let is_far = random.unit() < 0.1;
-            let eye = found.farthest * (NEAREST + 0.01 + 20.0 * random.unit().powi(4)) * direction(&mut random);
+            let eye =
+                found.farthest * (NEAREST + 0.01 + 20.0 * random.unit().powi(4)) * direction(&mut random);
             let known = found.most(eye, is_far).unwrap();
             let own = facing(&splats, eye, is_far);
             assert!(own <= known && known <= count as u32, "{round}: {own} of {known}");
@@ -89,7 +90,8 @@ fn a_direction_is_within_its_cell() {
             let (middle, away) = cell(side, cell_of(side, of));
             assert!(middle.angle_between(of) <= away + 1e-9, "{of}");
         }
-        for axis in [DVec3::X, DVec3::Y, DVec3::NEG_Z, DVec3::new(1.0, 1.0, 1.0), DVec3::new(-1.0, 0.0, 1.0)] {
+        for axis in [DVec3::X, DVec3::Y, DVec3::NEG_Z, DVec3::new(1.0, 1.0, 1.0), DVec3::new(-1.0, 0.0, 1.0)]
+        {
             let (middle, away) = cell(side, cell_of(side, axis));
             assert!(middle.angle_between(axis) <= away + 1e-9, "{axis}");
         }

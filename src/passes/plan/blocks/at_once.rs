@@ -7,7 +7,9 @@ use crate::{
     arena::Arena,
     passes::plan::{FramePlan, draws::draws, range::DepthRange},
     prepare::{Placed, PreparedScene, prepare_without_device},
-    scene::{Backfaces, Camera, ClipPlanes, Colors, Object, Placement, Scene, Settings, Shapes, Splats, TileMemory},
+    scene::{
+        Backfaces, Camera, ClipPlanes, Colors, Object, Placement, Scene, Settings, Shapes, Splats, TileMemory,
+    },
     vk::Limits,
 };
 
@@ -77,7 +79,11 @@ fn one_look_is_enough_of_what_is_far_and_within_the_view() {
         let half_angle = (0.5 * camera.fov_y_rad).tan() * 320.0 / 240.0;
         let aside = eye.cross(DVec3::Y).normalize();
         let half = match orthographic_height {
-            Some(height) => Camera { eye: eye + 0.5 * height * 320.0 / 240.0 * aside, target: 0.5 * height * 320.0 / 240.0 * aside, ..camera },
+            Some(height) => Camera {
+                eye: eye + 0.5 * height * 320.0 / 240.0 * aside,
+                target: 0.5 * height * 320.0 / 240.0 * aside,
+                ..camera
+            },
             None => Camera { target: distance * half_angle * aside, ..camera },
         };
         let [(runs, _, false)] = seen(&own, &half, &settings())[..] else { panic!("{round}: {half:?}") };
@@ -118,5 +124,8 @@ fn far_objects_are_in_one_band_where_there_is_room_for_what_faces_the_eye() {
         assert_eq!(bands(most), [(records, bytes, runs)], "{most}");
     }
     let short = bands(bytes / 2);
-    assert!(short.len() > 1 && short.iter().all(|band| band.1 < bytes * 3 / 4 && band.2 > 8), "{bytes}: {short:?}");
+    assert!(
+        short.len() > 1 && short.iter().all(|band| band.1 < bytes * 3 / 4 && band.2 > 8),
+        "{bytes}: {short:?}"
+    );
 }

@@ -94,7 +94,12 @@ pub(in super::super) fn run_of_all<'m>(
     let end = chunk.blocks.len() as u32;
     let mut runs = arena.growing();
     runs.reserve(1);
-    look_at(&mut runs, Place { first: 0, each: end, end, of_detail: &[], blocks: &[] }, &facing.whole, (look, &look.eye()));
+    look_at(
+        &mut runs,
+        Place { first: 0, each: end, end, of_detail: &[], blocks: &[] },
+        &facing.whole,
+        (look, &look.eye()),
+    );
     let Some(run) = runs.first_mut() else { return Some(&[]) };
     if !run.all_in_view {
         return None;
