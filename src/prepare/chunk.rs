@@ -98,7 +98,7 @@ pub struct Chunk {
     pub(super) shadow: Option<Shadow>,
     /// Runs of those.
     pub tree: BlockTree,
-    /// Where its splats may face, if it is closed, never changes, has no levels of detail and more than one quad of them; then the device has [bounds](block_bounds) of its blocks, too.
+    /// Where its splats may face, if it is closed, never changes, has no levels of detail and more than one quad of them; then the device has bounds of its blocks (`block_bounds.rs`), too.
     pub facing: Option<Facing>,
     /// Bytes of a shape and of a color.
     pub(super) bytes_each: [u64; 2],

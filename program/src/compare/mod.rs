@@ -29,6 +29,7 @@ use crate::{
     json::write_json,
     outputs,
     scene::load_scene,
+    unused,
 };
 
 /// Runs the subcommand.
@@ -57,6 +58,11 @@ fn compare(headless: &mut Headless, arguments: &CompareArguments) -> Result<()> 
     let choice = CameraChoice::of(&arguments.camera)?;
     let bars = Bars::new();
     let mut loaded = load_scene(&arguments.input.as_splats(), &bars)?;
+    if unused::is_triangles(&loaded) {
+        console::say(
+            "what is compared is how splats are drawn, and this scene is drawn as triangles; --representation splats draws it as splats",
+        );
+    }
     loaded.scene.levels = arguments.settings().wants_levels();
     loaded.scene.budget = arguments.settings().budget != Budget::Unlimited;
     let camera = choice.camera(&loaded, arguments.settings().size_px)?;

@@ -4,6 +4,7 @@ use std::fs;
 
 use super::{
     files::png,
+    inputs::CUBE,
     program::{Folder, Run, done, surfel},
     splats,
 };
@@ -210,6 +211,19 @@ fn a_zoom_compares_filters_at_each_distance() {
     assert!(report["claims"].as_array().unwrap().len() >= 4);
     assert!(run.stdout.contains("adjust: not more than 10% worse than ewa: "), "{}", run.stdout);
     assert!(fs::read_to_string(folder.path("z.svg")).unwrap().contains("adjust-paper"));
+}
+
+#[test]
+fn that_nothing_is_drawn_as_splats_is_told() {
+    let folder = folder();
+    folder.write("cube.obj", CUBE);
+    let few = ["--rasterizer", "perspective", "--filter", "none", "--kernel-eval", "analytic"];
+    let told = "this scene is drawn as triangles; --representation splats draws it as splats";
+    for (representation, tells) in [("mesh", true), ("splats", false)] {
+        let words = ["cube.obj", "--representation", representation];
+        let run = compare(&folder, &[&words[..], &few].concat());
+        assert_eq!((run.code, run.stderr.contains(told)), (0, tells), "{}", run.stderr);
+    }
 }
 
 #[test]
