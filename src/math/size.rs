@@ -19,6 +19,8 @@ pub struct SizeBound {
     pub size_px: [f64; 2],
     /// Where the view's axis meets the image.
     pub middle_px: [f64; 2],
+    /// How far from there the image reaches, as [`sides`] has it.
+    pub sides: [[f64; 2]; 2],
     /// Radius of the low-pass filter in pixels; 0 without.
     pub filter_px: f64,
     /// How much further than that splats reach, in pixels at their centers' depth.
@@ -58,10 +60,14 @@ pub fn box_px(bound: &SizeBound, radius: f64) -> f64 {
     box_within_px(bound, radius, half_image(bound))
 }
 
+/// From the view's axis to the left and right side of an image, and to the upper and lower one, in the image plane: the same for all that is seen in perspective.
+pub fn sides(size_px: [f64; 2], middle_px: [f64; 2], focal_px: f64) -> [[f64; 2]; 2] {
+    [0, 1].map(|i| [middle_px[i] / focal_px, (size_px[i] - middle_px[i]) / focal_px])
+}
+
 /// From the view's axis to the farthest side, in the image plane.
 pub fn half_image(bound: &SizeBound) -> f64 {
-    let most_px = (0..2).map(|i| bound.middle_px[i].abs().max((bound.size_px[i] - bound.middle_px[i]).abs()));
-    most_px.fold(0.0, f64::max) / bound.focal_px
+    bound.sides.iter().flatten().fold(0.0, |most, side| most.max(side.abs()))
 }
 
 /// That bound for splats all of whose images, as far as they are in the image, lie within ±`most_x` of the image plane.
@@ -129,7 +135,7 @@ mod tests {
             prop_assume!(nearest_z > 0.1);
             let bound = SizeBound {
                 nearest_z, largest_radius: s.length().hypot(t.length()), near: 0.01,
-                focal_px: 100.0, is_orthographic: false, size_px: [200.0, 100.0], middle_px: [100.0, 50.0], filter_px: 0.0, reach_px: 0.0,
+                focal_px: 100.0, is_orthographic: false, size_px: [200.0, 100.0], middle_px: [100.0, 50.0], sides: [[1.0; 2], [0.5; 2]], filter_px: 0.0, reach_px: 0.0,
             };
             let half = [1.0, 0.5];
             for axis in 0..2 {
@@ -187,6 +193,7 @@ mod tests {
                 is_orthographic: false,
                 size_px: [480.0; 2],
                 middle_px: [240.0; 2],
+                sides: sides([480.0; 2], [240.0; 2], focal_px),
                 filter_px: std::f64::consts::SQRT_2,
                 reach_px: 0.0,
             };
@@ -212,6 +219,7 @@ mod tests {
             is_orthographic: false,
             size_px: [100.0; 2],
             middle_px: [50.0; 2],
+            sides: [[0.5; 2]; 2],
             filter_px: 0.0,
             reach_px: 0.0,
         };
@@ -223,14 +231,16 @@ mod tests {
         let mut random = crate::math::random::SplitMix(6);
         let mut between = |lo: f64, hi: f64| lo + (hi - lo) * random.unit();
         for round in 0..1000 {
+            let focal_px = between(10.0, 5000.0);
             let bound = SizeBound {
                 nearest_z: 0.0,
                 largest_radius: 0.0,
                 near: 0.1,
-                focal_px: between(10.0, 5000.0),
+                focal_px,
                 is_orthographic: round % 3 == 0,
                 size_px: [640.0, 480.0],
                 middle_px: [320.0, 240.0],
+                sides: sides([640.0, 480.0], [320.0, 240.0], focal_px),
                 filter_px: between(0.0, 1.5),
                 reach_px: 0.0,
             };

@@ -112,10 +112,12 @@ impl Placement {
 
     /// The same of a camera whose up is neither zero nor parallel to the view.
     pub(crate) fn camera_of_usable_up(&self, camera: &Camera) -> Camera {
+        let turn = self.rotation.normalize().conjugate();
+        let point = |point: DVec3| turn * (point - self.translation) / self.scale;
         Camera {
-            eye: self.eye(camera),
-            target: self.point(camera.target),
-            up: self.rotation.normalize().conjugate() * camera.up,
+            eye: point(camera.eye),
+            target: point(camera.target),
+            up: turn * camera.up,
             near: Some(camera.near() / self.scale),
             orthographic_height: camera.orthographic_height.map(|height| height / self.scale),
             ..*camera
@@ -124,12 +126,7 @@ impl Placement {
 
     /// The eye of that camera, by itself.
     pub(crate) fn eye(&self, camera: &Camera) -> DVec3 {
-        self.point(camera.eye)
-    }
-
-    /// A point of the world in the scene's own space.
-    fn point(&self, point: DVec3) -> DVec3 {
-        self.rotation.normalize().conjugate() * (point - self.translation) / self.scale
+        self.rotation.normalize().conjugate() * (camera.eye - self.translation) / self.scale
     }
 
     /// A plane of the world in the scene's own space: its unit normal, and how far the origin is on the side that the normal points to.

@@ -18,7 +18,7 @@ const LEAST_PART: u64 = 64;
 
 /// Whether some splats face away and are not drawn, or may lie outside of the view.
 pub(crate) fn may_leave_out(splats: &[Draw<'_>]) -> bool {
-    splats.iter().any(|draw| culls(draw.variant) || !draw.wholly_in_view)
+    splats.iter().any(|draw| culls(draw.variant) || !draw.is_wholly_in_view())
 }
 
 /// Whether tiles are made of listed splats where a list gains something.

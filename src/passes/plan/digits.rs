@@ -1,5 +1,7 @@
 //! What of a frame is beyond f32: refused where the picture would be wrong, told where it is less exact.
 
+use glam::DVec3;
+
 use crate::passes::plan::{FramePlan, SurfacePlan, draws::Draw, range::DepthRange};
 use crate::{
     error::{Error, Result},
@@ -25,7 +27,8 @@ pub fn check(scenes: &[Placed<'_>], camera: &Camera) -> Result<()> {
     if camera.is_orthographic() {
         return check_range(scenes, camera);
     }
-    scenes.iter().try_for_each(|placed| check_near(placed, camera))
+    let mut near = scenes.iter().filter(|placed| !is_far_from_least(placed, camera));
+    near.try_for_each(|placed| check_near(placed, camera))
 }
 
 /// The same of one scene, in its own space.
@@ -44,10 +47,6 @@ fn check_near(Placed { scene, at, .. }: &Placed<'_>, camera: &Camera) -> Result<
         let farthest = (distance + reach / rebase.scale) / unit;
         near / unit / farthest.max(1.0)
     };
-    let reach_of = |chunk: &Chunk| {
-        let [lo, hi] = chunk.bounds;
-        lo.abs().max(hi.abs()).length() + chunk.largest_radius
-    };
     // A stray point beyond all measure, which is seen as nothing, must not refuse the rest.
     let total = scene.splat_count();
     let counts = |count: u32| count > 0 && u64::from(count) * STRAYS >= total;
@@ -55,7 +54,7 @@ fn check_near(Placed { scene, at, .. }: &Placed<'_>, camera: &Camera) -> Result<
         .chunks
         .iter()
         .filter(|chunk| counts(chunk.count))
-        .map(|chunk| near_in_units(&chunk.rebase, reach_of(chunk)));
+        .map(|chunk| near_in_units(&chunk.rebase, reach(chunk, DVec3::length)));
     let meshes = scene.meshes.iter().map(|mesh| near_in_units(&mesh.rebase, 3_f64.sqrt() * mesh.farthest));
     let least = splats.chain(meshes).fold(1.0, f64::min);
     if least < LEAST_NEAR {
@@ -67,6 +66,26 @@ fn check_near(Placed { scene, at, .. }: &Placed<'_>, camera: &Camera) -> Result<
         return Err(Error::option("camera", problem));
     }
     Ok(())
+}
+
+/// Whether the near plane is so far beyond the nearest that sums of coordinates in place of lengths tell it, in the world's lengths: nearly always, and a frame may show hundreds of scenes.
+fn is_far_from_least(Placed { scene, at, .. }: &Placed<'_>, camera: &Camera) -> bool {
+    let sum = |v: DVec3| v.abs().element_sum();
+    // No less than the distance, the reach and the unit of a chunk together; a unit is twice as long as what it has to be at most.
+    let eye = sum(camera.eye - at.translation);
+    let extent = |rebase: &Rebase, reach: f64| sum(rebase.origin) + (reach + 1.0) / rebase.scale;
+    let splats = scene.chunks.iter().map(|chunk| extent(&chunk.rebase, reach(chunk, sum)));
+    let meshes = scene.meshes.iter().map(|mesh| extent(&mesh.rebase, 3.0 * mesh.farthest));
+    let farthest = splats.chain(meshes).fold(0.0, f64::max);
+    let near = camera.near();
+    // NaN is not far.
+    (1e-30..1e30).contains(&(near / at.scale)) && near > 10.0 * LEAST_NEAR * (eye + at.scale * farthest)
+}
+
+/// How far from its local origin a chunk reaches, by a length of a vector.
+fn reach(chunk: &Chunk, length: impl Fn(DVec3) -> f64) -> f64 {
+    let [lo, hi] = chunk.bounds;
+    length(lo.abs().max(hi.abs())) + chunk.largest_radius
 }
 
 /// The same of an orthographic camera, whose depth ends where the scene does.

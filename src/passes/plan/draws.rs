@@ -1,6 +1,6 @@
 //! What is drawn: the chunks of a prepared scene as this frame's camera and settings see them.
 
-use glam::DVec4;
+use std::ops::Deref;
 
 use crate::passes::{
     pipeline::{
@@ -13,8 +13,9 @@ use crate::passes::{
             BlockCullView,
             walk::{Closer, closer_runs, potentially_visible_runs, run_of_all},
         },
+        chunk_view::ChunkView,
         frame_constants::frame_constants,
-        in_view::{center_and_half, in_view, nearest_z, wholly_in_view},
+        in_view::{by_origin, in_view, nearest_z},
         levels::LevelView,
         range::DepthRange,
         scene_view::{CameraView, SceneView},
@@ -25,33 +26,21 @@ use crate::passes::{
 use crate::{
     arena::{Arena, ArenaVec},
     error::Result,
-    math::size::{SizeBound, box_px, half_image, largest_box_px},
-    prepare::{Chunk, Placed, ViewFromLocal, inverse_overlap_in_upper_half},
+    math::size::{SizeBound, largest_box_px},
+    prepare::{Chunk, Placed, inverse_overlap_in_upper_half},
     scene::{Camera, Epsilon, Filter, Settings},
     shaders::config::*,
     vk::Limits,
 };
 
-/// A chunk in this frame.
+/// A chunk in this frame: as it is seen, and how it is drawn.
 #[derive(Clone, Copy)]
 pub struct Draw<'a> {
-    /// The splats.
-    pub chunk: &'a Chunk,
-    /// The number of their scene among those that the frame shows.
-    pub placed: u32,
+    seen: &'a ChunkView<'a>,
     /// What its shaders are told.
     pub constants: FrameConstants,
-    /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
-    pub largest_box_px: f64,
-    /// From where, for [`Self::potentially_visible_runs`].
-    pub(super) view: ViewFromLocal,
-    pub(super) bound: SizeBound,
-    /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
-    pub wholly_in_view: bool,
-    /// The planes that cut what is seen, in view space: unit normals toward what is left, and by how much the eye is inside.
-    pub(super) planes: &'a [DVec4],
     /// How the camera sees its levels of detail, where some of its splats are of none that is drawn.
-    pub(crate) levels: Option<LevelView>,
+    pub(crate) levels: Option<&'a LevelView>,
     /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
     /// triangle: such ones are then listed and drawn as quads. Never with a rasterizer that draws quads only.
     pub may_be_large: bool,
@@ -61,15 +50,15 @@ pub struct Draw<'a> {
     pub(crate) variant: &'a Constants,
 }
 
-impl Draw<'_> {
-    /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as [`Self::largest_box_px`].
-    pub(crate) fn boxes(&self) -> impl Iterator<Item = (u32, f64)> + Clone {
-        self.chunk.radii.iter().map(|step| {
-            let radius = step.radius * self.view.view_from_local_scale;
-            (step.count, box_px(&self.bound, radius).min(self.largest_box_px))
-        })
-    }
+impl<'a> Deref for Draw<'a> {
+    type Target = ChunkView<'a>;
 
+    fn deref(&self) -> &ChunkView<'a> {
+        self.seen
+    }
+}
+
+impl Draw<'_> {
     /// The blocks in which there may be something to see.
     pub(crate) fn potentially_visible_runs<'m>(&self, arena: &'m Arena) -> &'m [PotentiallyVisibleRun] {
         potentially_visible_runs(arena, self.chunk, &self.look())
@@ -104,27 +93,7 @@ impl Draw<'_> {
 
     /// How its blocks are looked at.
     pub(super) fn look(&self) -> BlockCullView<'_> {
-        let Self { view, bound, levels, planes, .. } = self;
-        let [center, half] = center_and_half(self.chunk);
-        let farthest = (center.abs() + half).length() * view.view_from_local_scale;
-        BlockCullView {
-            view,
-            bound,
-            culls: culls(self.variant),
-            levels: levels.as_ref(),
-            planes,
-            by_origin: view.origin_from_eye.length() + farthest,
-            half_image: half_image(bound),
-        }
-    }
-}
-
-impl Draw<'_> {
-    /// The largest depth of a splat's center, in view space.
-    pub(super) fn farthest_z(&self) -> f64 {
-        let row = self.view.rotation.row(2);
-        let [center, half] = center_and_half(self.chunk);
-        (row.dot(center) + row.abs().dot(half)) * self.view.view_from_local_scale + self.view.translation.z
+        self.seen.look(culls(self.variant), self.levels)
     }
 }
 
@@ -160,7 +129,8 @@ pub fn draws<'a, 's>(
     settings: &'s Settings,
     limits: &'s Limits,
 ) -> impl Iterator<Item = Draw<'a>> + use<'a, 's> {
-    let view = arena.keep(CameraView::new(seen, settings).of_scene(arena, &placed.at));
+    let view = arena.keep(CameraView::new(seen, settings));
+    let view = arena.keep(view.of_scene(arena, &placed.at));
     let variants = SplatVariants::new(arena, settings, limits);
     placed
         .scene
@@ -185,13 +155,14 @@ pub(super) fn draw<'a>(
     settings: &Settings,
     variants: &SplatVariants<'a, '_>,
 ) -> Option<Draw<'a>> {
-    let camera = &of_scene.camera;
-    let levels = chunk.levels.and_then(|levels| LevelView::new(levels, chunk.transparent, camera, settings));
+    let levels = chunk
+        .levels
+        .and_then(|levels| LevelView::new(levels, chunk.transparent, &of_scene.camera(&at), settings));
     if levels.is_none() && chunk.stands_for_others() {
         return None;
     }
     let view = chunk.rebase.view_from(&of_scene.view);
-    let is_orthographic = camera.is_orthographic();
+    let is_orthographic = of_scene.is_orthographic();
     let wanted = chunk.epsilon.unwrap_or(settings.epsilon);
     let epsilon = match wanted {
         Epsilon::Auto => (Epsilon::auto_radii(chunk.transparent), 0.0),
@@ -201,14 +172,16 @@ pub(super) fn draw<'a>(
         Epsilon::Length(length) => (0.0, length / at.scale),
     };
     let filter_radius_px = settings.samples.filter_radius_px();
+    let by_origin = by_origin(chunk, &view);
     let bound = SizeBound {
-        nearest_z: nearest_z(chunk, &view),
+        nearest_z: nearest_z(chunk, &view, by_origin),
         largest_radius: chunk.largest_radius * view.view_from_local_scale,
         near: if is_orthographic { 0.0 } else { of_scene.near(&view) },
         focal_px: of_scene.focal_px(&view),
         is_orthographic,
-        size_px: settings.size_px.map(f64::from),
-        middle_px: camera.middle_px(settings.size_px),
+        size_px: of_scene.frame.size_px,
+        middle_px: of_scene.frame.middle_px,
+        sides: of_scene.sides(&view),
         filter_px: match settings.filter {
             Filter::None => 0.0,
             // Its two axes may have one direction: together they reach √2 times as far as one.
@@ -233,19 +206,22 @@ pub(super) fn draw<'a>(
             view.fine_rows();
     }
     let clip = of_scene.clip;
-    Some(Draw {
+    let seen = arena.keep(ChunkView {
         chunk,
         placed: number,
-        constants,
         largest_box_px,
         view,
         bound,
-        // What planes cut off is looked for, too.
-        wholly_in_view: clip.is_empty() && wholly_in_view(chunk, &view, &bound),
+        by_origin,
         planes: match clip.is_empty() {
             true => &[],
             false => arena.list(clip.iter().map(|plane| in_view(*plane, &of_scene.view, &view))),
         },
+    });
+    let levels = levels.map(|levels| arena.keep(levels));
+    Some(Draw {
+        seen,
+        constants,
         levels,
         may_be_large: match Primitive::of(settings.rasterizer) {
             Primitive::Point => largest_box_px > f64::from(variants.limits.point_size_range[1]),
@@ -254,12 +230,7 @@ pub(super) fn draw<'a>(
             Primitive::Quad => false,
         },
         half_sums: false,
-        variant: variants.of(
-            chunk,
-            camera.window.whole_px.unwrap_or(settings.size_px),
-            wanted,
-            levels.as_ref(),
-        ),
+        variant: variants.of(chunk, of_scene.whole_px().unwrap_or(settings.size_px), wanted, levels),
     })
 }
 
@@ -272,7 +243,9 @@ pub(crate) fn without_levels<'a>(arena: &'a Arena, splats: &mut ArenaVec<'_, Dra
 
 /// The same splats, of whose levels of detail one takes the place of the other at once.
 pub(crate) fn with_hard_steps<'a>(arena: &'a Arena, splats: &mut [Draw<'a>]) {
-    splats.iter_mut().for_each(|draw| draw.levels = draw.levels.map(LevelView::with_hard_steps));
+    splats
+        .iter_mut()
+        .for_each(|draw| draw.levels = draw.levels.map(|levels| arena.keep(levels.with_hard_steps())));
     leave_out(arena, splats, SPEC_BLENDED);
 }
 

@@ -22,8 +22,8 @@ pub(crate) fn frame_constants(
     settings: &Settings,
     (epsilon_radii, epsilon_length): (f64, f64),
 ) -> FrameConstants {
-    let (camera, focal_px) = (&of_scene.camera, of_scene.focal_px(view));
-    let near = if camera.is_orthographic() {
+    let focal_px = of_scene.focal_px(view);
+    let near = if of_scene.is_orthographic() {
         of_scene.range.end * view.view_from_world_scale
     } else {
         of_scene.near(view)
@@ -34,14 +34,14 @@ pub(crate) fn frame_constants(
         view_from_local_x,
         view_from_local_y,
         view_from_local_z,
-        middle_px: camera.middle_px(settings.size_px).map(|at| at as f32),
+        middle_px: of_scene.frame.middle_px.map(|at| at as f32),
         focal_px: focal_px as f32,
         near: near as f32,
         filter_radius: (settings.samples.filter_radius_px() / focal_px) as f32,
         epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
         epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
         size_less_1_px: in_one_word(settings.size_px.map(|side| side.saturating_sub(1).min(0xffff))),
-        corner_px: in_one_word(camera.corner_px()),
+        corner_px: in_one_word(of_scene.corner_px()),
         splat_count: 0,
         chunk_color: 0,
         view_from_local_scale: view.view_from_local_scale as f32,

@@ -25,26 +25,26 @@ pub(super) fn in_view(plane: DVec4, of_scene: &ViewFromWorld, view: &ViewFromLoc
     (of_scene.rotation * normal).extend(eye * view.view_from_world_scale)
 }
 
+/// How far a chunk's origin is from the eye, and from there the farthest of its centers at most, together, in the view's unit.
+pub(super) fn by_origin(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
+    let [center, half] = center_and_half(chunk);
+    (center.length() + half.length()) * view.view_from_local_scale + view.origin_from_eye.length()
+}
+
 /// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius, as a device may
 /// find it. The host proves by it that splats are regular, and those that a device finds otherwise would have no place.
-pub(super) fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
+pub(super) fn nearest_z(chunk: &Chunk, view: &ViewFromLocal, by_origin: f64) -> f64 {
     let row = view.rotation.row(2);
     let [center, half] = center_and_half(chunk);
     let local = row.dot(center) - row.abs().dot(half) - chunk.largest_radius;
-    let farthest = center.length() + half.length() + chunk.largest_radius;
-    let reserve = DEPTH_RESERVE * (farthest * view.view_from_local_scale + view.origin_from_eye.length());
+    let reserve = DEPTH_RESERVE * (chunk.largest_radius * view.view_from_local_scale + by_origin);
     local * view.view_from_local_scale + view.translation.z - reserve
 }
 
 /// Whether the box of the chunk's centers lies between the near plane and the four sides of the view.
 pub(super) fn wholly_in_view(chunk: &Chunk, view: &ViewFromLocal, bound: &SizeBound) -> bool {
     let [x, y, z] = [0, 1, 2].map(|i| view.rotation.row(i).extend(view.translation[i]));
-    // From the axis to the left and right side, and to the upper and lower one.
-    let sides = |i: usize| {
-        let (middle_px, side_px) = (bound.middle_px[i], bound.size_px[i]);
-        [middle_px / bound.focal_px, (side_px - middle_px) / bound.focal_px]
-    };
-    let ([left, right], [top, bottom]) = (sides(0), sides(1));
+    let [[left, right], [top, bottom]] = bound.sides;
     // Rays meet in the eye, or are parallel.
     let unit = if bound.is_orthographic { DVec4::W } else { z };
     let [center, half] = center_and_half(chunk);

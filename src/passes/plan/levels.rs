@@ -84,8 +84,8 @@ impl LevelView {
     }
 
     /// The same view, in which nodes take the place of those below them at once.
-    pub fn with_hard_steps(self) -> Self {
-        Self { blended_size: 1.0, ..self }
+    pub fn with_hard_steps(&self) -> Self {
+        Self { blended_size: 1.0, ..*self }
     }
 
     fn share_of_blended(&self) -> f64 {

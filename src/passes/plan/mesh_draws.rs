@@ -46,7 +46,8 @@ pub fn mesh_draws<'a, 's>(
     (arena, camera, range): (&'s Arena, &Camera, DepthRange),
     settings: &'s Settings,
 ) -> impl Iterator<Item = MeshDraw<'a>> + use<'a, 's> {
-    let view = arena.keep(CameraView::new((camera, range), settings).of_scene(arena, &placed.at));
+    let view = arena.keep(CameraView::new((camera, range), settings));
+    let view = arena.keep(view.of_scene(arena, &placed.at));
     placed.scene.meshes.iter().map(move |chunk| mesh_draw(placed, chunk, view, settings))
 }
 
@@ -73,7 +74,7 @@ pub(super) fn mesh_draw<'a>(
         cull: settings.culls(chunk.closed && !chunk.transparent),
         levels: chunk.levels.and_then(|MeshLevels { space, .. }| {
             let levels = ChunkLevels { space, part: LevelPart::OfCells };
-            LevelView::new(levels, false, &of_scene.camera, settings)
+            LevelView::new(levels, false, &of_scene.camera(&at), settings)
         }),
     }
 }

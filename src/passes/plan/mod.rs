@@ -6,6 +6,7 @@ pub(crate) mod bands;
 pub(crate) mod block_list;
 pub(crate) mod blocks;
 pub(crate) mod budget;
+pub(crate) mod chunk_view;
 pub(crate) mod culling;
 pub(crate) mod digits;
 pub(crate) mod draws;
@@ -136,7 +137,7 @@ impl<'a> FramePlan<'a> {
         let range = DepthRange::of(scenes, camera);
         let camera = &range.begin(camera);
         let lights = lights::shader_lights(arena, scenes, camera);
-        let seen = CameraView::new((camera, range), settings);
+        let seen = arena.keep(CameraView::new((camera, range), settings));
         let views = arena.list(scenes.iter().map(|placed| seen.of_scene(arena, &placed.at)));
         let variants = SplatVariants::new(arena, settings, limits);
         let surface = |transparent: bool| {

@@ -6,6 +6,7 @@ use glam::{DMat3, DVec4};
 use crate::{
     arena::Arena,
     inline_vec::InlineVec,
+    math::size::sides,
     passes::plan::range::DepthRange,
     prepare::ViewFromLocal,
     scene::{Camera, MOST_PLANES, Placement, Settings, ViewFromWorld},
@@ -17,18 +18,24 @@ pub(crate) struct CameraView {
     range: DepthRange,
     view: ViewFromWorld,
     clip: InlineVec<DVec4, MOST_PLANES>,
+    /// The image's sides.
+    pub size_px: [f64; 2],
+    /// Where the view's axis meets it.
+    pub middle_px: [f64; 2],
     height_px: u32,
     focal_px: f64,
+    /// As [`sides`] has it, of a camera whose rays meet in the eye.
+    sides: [[f64; 2]; 2],
 }
 
 /// How a frame sees a scene that stands somewhere.
 #[derive(Clone, Copy)]
 pub(crate) struct SceneView<'a> {
-    /// The camera in the scene's own space.
-    pub camera: Camera,
+    /// The camera in the world.
+    pub frame: &'a CameraView,
     /// Its depths, in the scene's lengths.
     pub range: DepthRange,
-    /// The motion to view space.
+    /// The motion from the scene's own space to view space, in the scene's lengths.
     pub view: ViewFromWorld,
     /// The planes that cut what is seen, in the scene's own space.
     pub clip: &'a [DVec4],
@@ -39,43 +46,64 @@ pub(crate) struct SceneView<'a> {
 impl CameraView {
     /// The view of a camera, whose depths begin where it is ([`DepthRange::begin`]).
     pub fn new((camera, range): (&Camera, DepthRange), settings: &Settings) -> Self {
-        let height_px = settings.size_px[1];
+        let [width_px, height_px] = settings.size_px;
+        let (size_px, middle_px) = ([width_px.into(), height_px.into()], camera.middle_px(settings.size_px));
+        let focal_px = camera.focal_px(height_px);
         Self {
-            camera: Camera { up: camera.usable_up(), ..*camera },
+            camera: Camera { up: camera.usable_up(), near: Some(camera.near()), ..*camera },
             range,
             view: camera.view_from_world(),
             clip: settings.clip(),
+            size_px,
+            middle_px,
             height_px,
-            focal_px: camera.focal_px(height_px),
+            focal_px,
+            sides: sides(size_px, middle_px, focal_px),
         }
     }
 
     /// The same of a scene that stands there.
-    pub fn of_scene<'a>(&self, arena: &'a Arena, at: &Placement) -> SceneView<'a> {
-        let Self { view, focal_px, .. } = *self;
+    pub fn of_scene<'a>(&'a self, arena: &'a Arena, at: &Placement) -> SceneView<'a> {
+        let Self { camera, view, focal_px, .. } = self;
         let clip = &self.clip[..];
         let clip = if clip.is_empty() { &[] } else { arena.list(clip.iter().map(|plane| at.plane(*plane))) };
-        let is_home = *at == Placement::default();
-        let camera = if is_home { self.camera } else { at.camera_of_usable_up(&self.camera) };
-        SceneView {
-            camera,
-            range: self.range.within(at),
-            view: match is_home {
-                true => view,
-                false => ViewFromWorld {
-                    rotation: view.rotation * DMat3::from_quat(at.rotation.normalize()),
-                    eye: camera.eye,
-                },
-            },
-            clip,
-            near: camera.near(),
-            // That of parallel rays is a length's.
-            focal_px: if camera.is_orthographic() { camera.focal_px(self.height_px) } else { focal_px },
-        }
+        let near = camera.near() / at.scale;
+        let (view, focal_px) = match *at == Placement::default() {
+            true => (*view, *focal_px),
+            false => {
+                let rotation = view.rotation * DMat3::from_quat(at.rotation.normalize());
+                // That of parallel rays is a length's.
+                let height = camera.orthographic_height.map(|height| height / at.scale);
+                let parallel = |height| Camera { orthographic_height: Some(height), ..*camera };
+                let focal_px = height.map_or(*focal_px, |height| parallel(height).focal_px(self.height_px));
+                (ViewFromWorld { rotation, eye: at.eye(camera) }, focal_px)
+            }
+        };
+        SceneView { frame: self, range: self.range.within(at), view, clip, near, focal_px }
     }
 }
 
 impl SceneView<'_> {
+    /// Whether rays are parallel.
+    pub fn is_orthographic(&self) -> bool {
+        self.frame.camera.is_orthographic()
+    }
+
+    /// The camera in the space of the scene that stands there.
+    pub fn camera(&self, at: &Placement) -> Camera {
+        at.camera_of_usable_up(&self.frame.camera)
+    }
+
+    /// As [`Camera::corner_px`].
+    pub fn corner_px(&self) -> [u32; 2] {
+        self.frame.camera.corner_px()
+    }
+
+    /// The sides of the whole picture, of which the image is a part.
+    pub fn whole_px(&self) -> Option<[u32; 2]> {
+        self.frame.camera.window.whole_px
+    }
+
     /// The depth of the near plane in view space. `digits.rs` refuses one that f32 does not have, but for stray splats.
     pub fn near(&self, view: &ViewFromLocal) -> f64 {
         (self.near * view.view_from_world_scale).max(1e-37)
@@ -83,8 +111,18 @@ impl SceneView<'_> {
 
     /// Pixels of a unit of the image plane, which of an orthographic camera is the view's.
     pub fn focal_px(&self, view: &ViewFromLocal) -> f64 {
-        let unit = if self.camera.is_orthographic() { view.view_from_world_scale } else { 1.0 };
-        self.focal_px / unit
+        match self.is_orthographic() {
+            true => self.focal_px / view.view_from_world_scale,
+            false => self.focal_px,
+        }
+    }
+
+    /// How far the image reaches from the view's axis, as [`sides`] has it.
+    pub fn sides(&self, view: &ViewFromLocal) -> [[f64; 2]; 2] {
+        match self.is_orthographic() {
+            true => sides(self.frame.size_px, self.frame.middle_px, self.focal_px(view)),
+            false => self.frame.sides,
+        }
     }
 }
 

@@ -3,7 +3,10 @@ use glam::DVec3;
 use super::{walk::Closer, *};
 use crate::{
     arena::Arena,
-    math::{random::SplitMix, size::half_image},
+    math::{
+        random::SplitMix,
+        size::{half_image, sides},
+    },
     prepare::Rebase,
     scene::Camera,
 };
@@ -89,14 +92,17 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
         let plane = |z: f64| if parallel { 1.0 } else { z };
         let ray_to = |point: DVec3| if parallel { camera.forward() } else { point - camera.eye };
         let near = camera.near() * view.view_from_world_scale;
+        let (size_px, middle_px) = (SIZE_PX.map(f64::from), camera.middle_px(SIZE_PX));
+        let focal_of_view = if parallel { focal_px / view.view_from_world_scale } else { focal_px };
         let bound = SizeBound {
             nearest_z: -1.0,
             largest_radius: radius * view.view_from_local_scale,
             near,
-            focal_px: if parallel { focal_px / view.view_from_world_scale } else { focal_px },
+            focal_px: focal_of_view,
             is_orthographic: parallel,
-            size_px: SIZE_PX.map(f64::from),
-            middle_px: camera.middle_px(SIZE_PX),
+            size_px,
+            middle_px,
+            sides: sides(size_px, middle_px, focal_of_view),
             filter_px: std::f64::consts::SQRT_2,
             reach_px: 0.0,
         };

@@ -45,7 +45,7 @@ impl<'a> Drawn<'a> {
     pub fn new(arena: &'a Arena, draws: &'a [Draw<'a>]) -> Self {
         let mut boxes = arena.growing();
         boxes.reserve(draws.iter().map(|draw| draw.chunk.radii.len()).sum());
-        boxes.extend(draws.iter().flat_map(Draw::boxes));
+        boxes.extend(draws.iter().flat_map(|draw| draw.boxes()));
         Self { draws, boxes: boxes.into_bump_slice() }
     }
 }

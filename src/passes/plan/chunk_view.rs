@@ -1,0 +1,67 @@
+//! A chunk as a frame's camera sees it, however it is drawn.
+
+use glam::DVec4;
+
+use crate::{
+    math::size::{SizeBound, box_px, half_image},
+    passes::plan::{
+        blocks::BlockCullView,
+        in_view::{center_and_half, wholly_in_view},
+        levels::LevelView,
+    },
+    prepare::{Chunk, ViewFromLocal},
+};
+
+/// Splats of a prepared scene as a camera sees them. All draws of them share it: lists of draws are copied, band by band.
+#[derive(Clone, Copy)]
+pub struct ChunkView<'a> {
+    /// The splats.
+    pub chunk: &'a Chunk,
+    /// The number of their scene among those that the frame shows.
+    pub placed: u32,
+    /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
+    pub largest_box_px: f64,
+    /// From where, for lists of blocks.
+    pub(super) view: ViewFromLocal,
+    pub(super) bound: SizeBound,
+    /// As `in_view.rs` has it.
+    pub(super) by_origin: f64,
+    /// The planes that cut what is seen, in view space: unit normals toward what is left, and by how much the eye is inside.
+    pub(super) planes: &'a [DVec4],
+}
+
+impl ChunkView<'_> {
+    /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as [`Self::largest_box_px`].
+    pub(crate) fn boxes(&self) -> impl Iterator<Item = (u32, f64)> + Clone {
+        self.chunk.radii.iter().map(|step| {
+            let radius = step.radius * self.view.view_from_local_scale;
+            (step.count, box_px(&self.bound, radius).min(self.largest_box_px))
+        })
+    }
+
+    /// Whether no splat's center lies outside of the view, nor may be cut off, as far as a box around all of them tells.
+    pub(super) fn is_wholly_in_view(&self) -> bool {
+        self.planes.is_empty() && wholly_in_view(self.chunk, &self.view, &self.bound)
+    }
+
+    /// How its blocks are looked at where what faces away is not drawn, or is, and of its levels of detail as these are seen.
+    pub(super) fn look<'b>(&'b self, culls: bool, levels: Option<&'b LevelView>) -> BlockCullView<'b> {
+        let Self { view, bound, planes, by_origin, .. } = self;
+        BlockCullView {
+            view,
+            bound,
+            culls,
+            levels,
+            planes,
+            by_origin: *by_origin,
+            half_image: half_image(bound),
+        }
+    }
+
+    /// The largest depth of a splat's center, in view space.
+    pub(super) fn farthest_z(&self) -> f64 {
+        let row = self.view.rotation.row(2);
+        let [center, half] = center_and_half(self.chunk);
+        (row.dot(center) + row.abs().dot(half)) * self.view.view_from_local_scale + self.view.translation.z
+    }
+}
