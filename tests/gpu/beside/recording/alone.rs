@@ -60,9 +60,11 @@ fn recording_alone_costs_so_much() {
 fn objects_alone_cost_so_much() {
     let mut rows = Vec::new();
     for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
-        let row =
-            |(objects, splats)| Row { kind: "closed", objects, splats, size_px: [160, 120], rasterizer };
-        rows.extend([(1, 1000), (8, 1000), (64, 1000), (64, 10_000), (64, 30_000), (64, 100_000)].map(row));
+        for kind in ["closed", "open"] {
+            let row = |(objects, splats)| Row { kind, objects, splats, size_px: [160, 120], rasterizer };
+            let some = [(1, 1000), (8, 1000), (64, 1000), (64, 10_000), (64, 30_000), (64, 100_000)];
+            rows.extend(some.map(row));
+        }
     }
     record(rows);
 }
