@@ -177,7 +177,7 @@ impl Renderer {
             packed: draw.chunk.packed,
             fine: draw.chunk.fine,
             bytes: draw.chunk.bytes(),
-            largest_box_px: draw.largest_box_px,
+            largest_box_px: draw.largest_box_px(),
             may_be_large: draw.may_be_large,
             by_tiles: !if draw.chunk.transparent { &frame.transparent } else { &frame.opaque }
                 .bands()

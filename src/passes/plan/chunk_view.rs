@@ -3,7 +3,7 @@
 use glam::DVec4;
 
 use crate::{
-    math::size::{SizeBound, box_px, half_image},
+    math::size::{SizeBound, box_px, half_image, largest_box_px},
     passes::plan::{
         blocks::BlockCullView,
         in_view::{center_and_half, wholly_in_view},
@@ -19,8 +19,8 @@ pub struct ChunkView<'a> {
     pub chunk: &'a Chunk,
     /// The number of their scene among those that the frame shows.
     pub placed: u32,
-    /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
-    pub largest_box_px: f64,
+    /// What no box exceeds of its level of detail that is drawn, in pixels; infinite where there is none.
+    pub(super) of_level_px: f64,
     /// From where, for lists of blocks.
     pub(super) view: ViewFromLocal,
     pub(super) bound: SizeBound,
@@ -31,11 +31,16 @@ pub struct ChunkView<'a> {
 }
 
 impl ChunkView<'_> {
+    /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
+    pub fn largest_box_px(&self) -> f64 {
+        largest_box_px(&self.bound).min(self.of_level_px)
+    }
+
     /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as [`Self::largest_box_px`].
     pub(crate) fn boxes(&self) -> impl Iterator<Item = (u32, f64)> + Clone {
         self.chunk.radii.iter().map(|step| {
             let radius = step.radius * self.view.view_from_local_scale;
-            (step.count, box_px(&self.bound, radius).min(self.largest_box_px))
+            (step.count, box_px(&self.bound, radius).min(self.of_level_px))
         })
     }
 

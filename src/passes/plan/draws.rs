@@ -26,7 +26,7 @@ use crate::passes::{
 use crate::{
     arena::{Arena, ArenaVec},
     error::Result,
-    math::size::{SizeBound, largest_box_px},
+    math::size::SizeBound,
     prepare::{Chunk, Placed, inverse_overlap_in_upper_half},
     scene::{Camera, Epsilon, Filter, Settings},
     shaders::config::*,
@@ -193,8 +193,8 @@ pub(super) fn draw<'a>(
             false => 0.0,
         },
     };
-    let of_level = levels.map_or(f64::INFINITY, |view| view.largest_drawn_px(&chunk.tree, bound.filter_px));
-    let largest_box_px = largest_box_px(&bound).min(of_level);
+    let of_level_px =
+        levels.map_or(f64::INFINITY, |view| view.largest_drawn_px(&chunk.tree, bound.filter_px));
     let mut constants = FrameConstants {
         splat_count: chunk.count,
         chunk_color: u32::from(chunk.uniform_color),
@@ -209,7 +209,7 @@ pub(super) fn draw<'a>(
     let seen = arena.keep(ChunkView {
         chunk,
         placed: number,
-        largest_box_px,
+        of_level_px,
         view,
         bound,
         by_origin,
@@ -224,9 +224,9 @@ pub(super) fn draw<'a>(
         constants,
         levels,
         may_be_large: match Primitive::of(settings.rasterizer) {
-            Primitive::Point => largest_box_px > f64::from(variants.limits.point_size_range[1]),
+            Primitive::Point => seen.largest_box_px() > f64::from(variants.limits.point_size_range[1]),
             // Filters leave no splat thin.
-            Primitive::Triangle => settings.filter == Filter::None || largest_box_px.is_infinite(),
+            Primitive::Triangle => settings.filter == Filter::None || seen.largest_box_px().is_infinite(),
             Primitive::Quad => false,
         },
         half_sums: false,
