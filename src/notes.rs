@@ -79,12 +79,14 @@ pub enum Deed {
     Computed,
     /// Of what was computed: to which side it is directed.
     Turned,
+    /// What it holds together is taken for several things, each of which is drawn as the file says it: nothing is lost.
+    Separated,
 }
 
 impl Deed {
     /// Whether something that the file says is not drawn as it says it: what `--strict` refuses.
     pub fn is_loss(self) -> bool {
-        !matches!(self, Self::Computed | Self::Turned)
+        !matches!(self, Self::Computed | Self::Turned | Self::Separated)
     }
 
     fn words(self) -> &'static str {
@@ -96,6 +98,7 @@ impl Deed {
             Self::Ignored => "ignored",
             Self::Computed => "computed",
             Self::Turned => "turned",
+            Self::Separated => "cut apart",
         }
     }
 }

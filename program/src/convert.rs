@@ -34,7 +34,7 @@ the vertices, and radii of 1.5 times the mean distance to the 6 nearest neighbor
 With --splats or --max-error they are ellipses through the corners of the triangles of a simplified mesh, cut off at its ridges: edges \
 over which it bends by 30 degrees or more, and its border. Splats on both sides of a ridge are clipped by one curve. Vertices stay \
 where they are or vanish; a triangle that more than two curves cross becomes several splats. Triangles that are turned around against \
-their neighbors are turned back; a mesh with an edge of more than two triangles is refused.
+their neighbors are turned back; an edge of more than two triangles is a ridge of each, at which its splats end.
 
 The file is a binary PLY: x y z nx ny nz radius, or su_x ... sv_z (the tangent vectors) for ellipses, and red green blue \
 alpha (sRGB) where the model has colors. Parts of ellipses are cut off by clip_a1 clip_a3 clip_u clip_v clip_w, the same with \

@@ -28,7 +28,8 @@ use crate::{
 /// The most triangles that are looked at for one ellipse.
 const MOST_TRIANGLES: usize = 64;
 
-/// Cosine of 30°: over a triangle that is bent by more, an ellipse would stick out, though there is no ridge. It ends at the side between them.
+/// Cosine of 30°: over a triangle that is bent by more, an ellipse would stick out, though there is no ridge. It ends at the side between them, and where nothing
+/// is beyond.
 const COS_BENT: f64 = 0.866;
 
 /// Cosine of 40°, as of the corners of ridges.
@@ -79,12 +80,18 @@ pub(super) fn clipped_ellipses(
     triangle: usize,
     clipping: Clipping,
 ) -> Vec<ClippedEllipse> {
-    let mut open = vec![(model.triangles[triangle].map(|vertex| model.positions[vertex as usize]), 0)];
+    let corners = model.triangles[triangle];
+    let curve = |i: usize| {
+        let (from, to) = (corners[i], corners[(i + 1) % 3]);
+        model.piece(from, to).map(|piece| directed(piece, model, from).0)
+    };
+    let p = corners.map(|vertex| model.positions[vertex as usize]);
+    let mut open = vec![(Part { p, curves: [0, 1, 2].map(curve) }, 0)];
     let mut made = Vec::new();
-    while let Some((p, cuts)) = open.pop() {
-        let Some(one) = clipped_ellipse(model, triangle, p, clipping) else { continue };
+    while let Some((part, cuts)) = open.pop() {
+        let Some(one) = clipped_ellipse(model, triangle, part.p, clipping) else { continue };
         if one.crowded && cuts < MOST_CUTS {
-            open.extend(halves(p).map(|half| (half, cuts + 1)));
+            open.extend(halves(&part, model.normals[triangle]).map(|half| (half, cuts + 1)));
         } else {
             made.push(one);
         }
@@ -92,13 +99,28 @@ pub(super) fn clipped_ellipses(
     made
 }
 
-/// Cut across the longest side.
-fn halves(p: [DVec3; 3]) -> [[DVec3; 3]; 2] {
+/// A triangle, or what is left of one that was cut.
+struct Part {
+    p: [DVec3; 3],
+    /// Of ridges, from each corner to the next.
+    curves: [Option<Conic>; 3],
+}
+
+/// Cut across the longest side, in the plane. Where that is a ridge, in the middle of its curve: an ellipse through the middle of its chord would not reach so far.
+fn halves(Part { p, curves }: &Part, normal: DVec3) -> [Part; 2] {
     let side = |i: usize| p[i].distance_squared(p[(i + 1) % 3]);
     let i = (0..3).max_by(|a, b| side(*a).total_cmp(&side(*b))).unwrap_or(0);
-    let [a, b, c] = [0, 1, 2].map(|step| p[(i + step) % 3]);
-    let middle = 0.5 * (a + b);
-    [[a, middle, c], [middle, b, c]]
+    let turned = [0, 1, 2].map(|step| (i + step) % 3);
+    let ([a, b, c], [cut, of_b, of_c]) = (turned.map(|i| p[i]), turned.map(|i| curves[i]));
+    let middle = cut.map_or(0.5 * (a + b), |curve| {
+        let middle = curve.point(0.5);
+        middle - (middle - a).dot(normal) * normal
+    });
+    let [first, second] = [[0.0, 0.5], [0.5, 1.0]].map(|[from, to]| cut?.part(from, to));
+    [
+        Part { p: [a, middle, c], curves: [first, None, of_c] },
+        Part { p: [middle, b, c], curves: [second, of_b, None] },
+    ]
 }
 
 /// The ellipse of a part of a triangle; `None` of one without area.
@@ -147,14 +169,20 @@ fn find(model: &Model<'_>, triangle: usize, flat: &dyn Fn(DVec3) -> DVec3) -> (V
             }
             let [a, b] = [from, to].map(|vertex| flat(model.positions[vertex as usize]).truncate());
             let within = distance_to_side(a, b) < 1.0 - SHALLOW;
-            let Some(beyond) = model.edges.beyond(from, to).filter(|_| within) else { continue };
-            if model.normals[beyond].dot(normal) < COS_BENT {
+            if !within {
+                continue;
+            }
+            let beyond = model.edges.beyond(from, to);
+            let goes_on = beyond.filter(|beyond| model.normals[*beyond].dot(normal) >= COS_BENT);
+            if let Some(beyond) = goes_on {
+                if reached.len() < MOST_TRIANGLES && !reached.contains(&beyond) {
+                    reached.push(beyond);
+                }
+            } else {
                 let ends = [from, to].map(|vertex| model.positions[vertex as usize]);
                 let curve = Conic::line(ends[0], ends[1]).map(flat);
                 let line = vec![curve.start, curve.end];
                 found.push(Found { from, to, curve, line, in_space: ends.to_vec() });
-            } else if reached.len() < MOST_TRIANGLES && !reached.contains(&beyond) {
-                reached.push(beyond);
             }
         }
     }

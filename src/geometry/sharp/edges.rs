@@ -1,4 +1,8 @@
-//! The edges of a mesh, and what of a mesh can't be turned into splats with curves: repaired, or refused by name.
+//! The edges of a mesh, and what of a mesh can't be turned into splats with curves: repaired, cut apart, or refused by name.
+//!
+//! **Cut apart** is an edge at which no two triangles belong together: that of more than two, and that of two which pass it in the same
+//! direction. It is a border of each of its triangles (Guéziec, Taubin, Lazarus, Horn, "Cutting and stitching", 2001), but its vertices stay
+//! one: so it is one ridge, whose curve cuts the splats of all its triangles, and collapses along it move all sheets at once.
 
 use std::collections::HashMap;
 
@@ -24,10 +28,22 @@ pub(super) const NONE: u32 = u32::MAX;
 pub(super) struct Edge {
     pub a: u32,
     pub b: u32,
-    /// The triangle that passes it from `a` to `b`, or [`NONE`].
+    /// The triangle that passes it from `a` to `b`, or [`NONE`]; as of one that is cut apart.
     pub left: u32,
-    /// The triangle that passes it from `b` to `a`, or [`NONE`].
+    /// The triangle that passes it from `b` to `a`, or [`NONE`]; as of one that is cut apart.
     pub right: u32,
+}
+
+/// The edges of a mesh, and what kinds of them there are.
+pub(super) struct Edges {
+    /// By their vertices.
+    pub all: Vec<Edge>,
+    /// Those of more than two triangles.
+    pub crowded: usize,
+    /// Those that two triangles pass in the same direction.
+    pub one_way: usize,
+    /// Each is passed as often in one direction as in the other: the border of something, as far as that goes.
+    pub closed: bool,
 }
 
 /// What was repaired.
@@ -41,6 +57,10 @@ pub struct Repairs {
     pub repeated: usize,
     /// Triangles that were turned around, so that neighbors agree.
     pub flipped: usize,
+    /// Edges of more than two triangles, which were cut apart.
+    pub crowded: usize,
+    /// Edges that two triangles pass in the same direction whatever is turned, as of a strip of one side: cut apart.
+    pub one_way: usize,
     /// The closed surface was inside out.
     pub turned: bool,
 }
@@ -54,16 +74,20 @@ impl Repairs {
             Note::of(Deed::Dropped, self.repeated, REPEATED),
             Note::of(Deed::Replaced, self.flipped, "triangles whose direction is not their neighbors'"),
             Note::of(Deed::Replaced, self.turned.into(), "surface that is inside out"),
+            Note::of(Deed::Separated, self.crowded, "edges of more than two triangles"),
+            Note::of(Deed::Separated, self.one_way, "edges at which a surface of one side meets its back"),
         ];
         notes.into_iter().flatten().collect()
     }
 }
 
-/// A mesh of which each edge has one triangle or two, which pass it in opposite directions; its vertices are those of the input.
+/// A mesh whose edges each have one triangle, two that pass them in opposite directions, or are cut apart; its vertices are those of the input.
 pub(super) struct Sound {
     pub mesh: Mesh,
     pub edges: Vec<Edge>,
     pub repairs: Repairs,
+    /// See [`Edges::closed`].
+    pub closed: bool,
 }
 
 impl Sound {
@@ -71,8 +95,7 @@ impl Sound {
     /// their neighbor does.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Input`] for an edge of more than two triangles, for a surface of one side, and for a mesh without any
-    /// triangle.
+    /// [`crate::error::ErrorKind::Input`] for a mesh without any triangle.
     pub fn of(mesh: &Mesh) -> Result<Self> {
         let (mut mesh, mut repairs) = (mesh.clone(), Repairs::default());
         repairs.welded = weld(&mut mesh);
@@ -81,20 +104,19 @@ impl Sound {
         if mesh.triangles.is_empty() {
             return Err(Error::input("mesh", "", "no triangle with an area; expected one"));
         }
-        let edges = match edges(&mesh.positions, &mesh.triangles) {
-            Ok(edges) => edges,
-            Err(_) => {
-                repairs.flipped = orientation::agree(&mut mesh.triangles);
-                edges(&mesh.positions, &mesh.triangles)?
-            }
-        };
-        if edges.iter().all(|edge| edge.left != NONE && edge.right != NONE) && signed_volume(&mesh) < 0.0 {
-            mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
-            let turned = edges.iter().map(|edge| Edge { left: edge.right, right: edge.left, ..*edge });
-            let edges = turned.collect();
-            return Ok(Self { mesh, edges, repairs: Repairs { turned: true, ..repairs } });
+        let mut edges = edges(&mesh.triangles);
+        if edges.one_way > 0 {
+            repairs.flipped = orientation::agree(&mut mesh.triangles);
+            edges = self::edges(&mesh.triangles);
         }
-        Ok(Self { mesh, edges, repairs })
+        (repairs.crowded, repairs.one_way) = (edges.crowded, edges.one_way);
+        let Edges { mut all, closed, .. } = edges;
+        if closed && signed_volume(&mesh) < 0.0 {
+            repairs.turned = true;
+            mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+            all.iter_mut().for_each(|edge| (edge.left, edge.right) = (edge.right, edge.left));
+        }
+        Ok(Self { mesh, edges: all, repairs, closed })
     }
 }
 
@@ -118,11 +140,8 @@ fn weld(mesh: &mut Mesh) -> usize {
     used.iter().filter(|used| **used).count()
 }
 
-/// All edges, by their vertices.
-///
-/// # Errors
-/// As [`Sound::of`].
-pub(super) fn edges(positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<Vec<Edge>> {
+/// The edges of triangles.
+pub(super) fn edges(triangles: &[[u32; 3]]) -> Edges {
     let mut sides: Vec<(u32, u32, u32, bool)> = triangles
         .par_iter()
         .enumerate()
@@ -131,41 +150,35 @@ pub(super) fn edges(positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<Vec<E
         })
         .collect();
     sides.par_sort_unstable();
-    let mut edges = Vec::with_capacity(sides.len() / 2 + 1);
+    let all = Vec::with_capacity(sides.len() / 2 + 1);
+    let mut edges = Edges { all, crowded: 0, one_way: 0, closed: true };
     for sides in sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let (a, b, ..) = sides[0];
-        let mut edge = Edge { a, b, left: NONE, right: NONE };
-        for (_, _, triangle, backward) in sides {
-            let side = if *backward { &mut edge.right } else { &mut edge.left };
-            if *side != NONE {
-                let problem = match sides.len() {
-                    2 => "both triangles pass it in the same direction; expected opposite ones".to_owned(),
-                    more => format!("{more} triangles; expected at most 2"),
-                };
-                return Err(Error::input("mesh", edge_in_words(positions, a, b), problem));
-            }
-            *side = *triangle;
-        }
-        edges.push(edge);
+        let (left, right) = match sides {
+            [one] if one.3 => (NONE, one.2),
+            [one] => (one.2, NONE),
+            [first, second] if !first.3 && second.3 => (first.2, second.2),
+            [first, second] if first.3 && !second.3 => (second.2, first.2),
+            _ => (NONE, NONE),
+        };
+        edges.all.push(Edge { a, b, left, right });
+        edges.crowded += usize::from(sides.len() > 2);
+        edges.one_way += usize::from(sides.len() == 2 && left == NONE);
+        let backward = sides.iter().filter(|side| side.3).count();
+        edges.closed &= 2 * backward == sides.len();
     }
-    Ok(edges)
-}
-
-/// By the places of its ends: readers of files number vertices anew.
-fn edge_in_words(positions: &[DVec3], a: u32, b: u32) -> String {
-    let [a, b] = [a, b].map(|vertex| positions.get(vertex as usize).copied().unwrap_or(DVec3::NAN));
-    format!("edge between {a} and {b}")
+    edges
 }
 
 /// The edges of a mesh, to be looked up by their vertices.
 pub(super) struct EdgeIndex(HashMap<(u32, u32), Edge>);
 
 impl EdgeIndex {
-    pub fn of(edges: &[Edge]) -> Self {
-        Self(edges.iter().map(|edge| ((edge.a, edge.b), *edge)).collect())
+    pub fn of(edges: &Edges) -> Self {
+        Self(edges.all.iter().map(|edge| ((edge.a, edge.b), *edge)).collect())
     }
 
-    /// The triangle beyond the side from `from` to `to` of a triangle.
+    /// The triangle beyond the side from `from` to `to` of a triangle; none at a border, and where it is cut apart.
     pub fn beyond(&self, from: u32, to: u32) -> Option<usize> {
         let edge = self.0.get(&(from.min(to), from.max(to)))?;
         let triangle = if from < to { edge.right } else { edge.left };
@@ -208,12 +221,33 @@ mod tests {
         assert_eq!(repaired.repairs, Repairs { welded: 2, degenerate: 1, repeated: 1, ..Repairs::default() });
         let refusal =
             |triangles: &[[u32; 3]]| Sound::of(&mesh(&SQUARE, triangles)).err().unwrap().to_string();
-        let expected = "mesh: edge between [0, 0, 0] and [1, 1, 0]: 3 triangles; expected at most 2";
-        assert_eq!(refusal(&[[0, 1, 2], [0, 2, 3], [0, 2, 4]]), expected);
-        // A strip of one side.
-        let expected = "mesh: edge between [0, 0, 0] and [1, 0, 0]: both triangles pass it in the same direction; expected opposite ones";
-        assert_eq!(refusal(&[[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 0, 4], [4, 0, 1]]), expected);
         assert_eq!(refusal(&[[0, 0, 9]]), "mesh: no triangle with an area; expected one");
+    }
+
+    #[test]
+    fn edges_at_which_no_two_triangles_belong_together_are_cut_apart() {
+        // Three sheets at one edge; a strip of one side; both.
+        let sheets = [[0, 1, 2], [0, 2, 3], [0, 2, 4]];
+        let strip = [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 0, 4], [4, 0, 1]];
+        for (triangles, crowded, one_way, cut) in [(&sheets[..], 1, 0, [0, 2]), (&strip[..], 0, 1, [0, 1])] {
+            let made = Sound::of(&mesh(&SQUARE, triangles)).unwrap();
+            assert_eq!(made.repairs, Repairs { crowded, one_way, ..Repairs::default() });
+            assert_eq!(made.mesh.triangles, triangles);
+            let found: Vec<[u32; 2]> = made
+                .edges
+                .iter()
+                .filter(|edge| (edge.left, edge.right) == (NONE, NONE))
+                .map(|edge| [edge.a, edge.b])
+                .collect();
+            assert!(found == [cut] && !made.closed, "{found:?}");
+            let notes = made.repairs.notes();
+            assert!(notes.len() == 1 && notes[0].to_string().ends_with(" cut apart"), "{}", notes[0]);
+        }
+        // Two tetrahedra at one edge enclose what each does.
+        let both = [[0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 0, 4], [0, 1, 3], [0, 5, 1], [1, 5, 3], [3, 5, 0]];
+        let below = [&SQUARE[..], &[[0.5, -0.5, -1.0]]].concat();
+        let made = Sound::of(&mesh(&below, &both)).unwrap();
+        assert_eq!((made.closed, made.repairs), (true, Repairs { crowded: 1, ..Repairs::default() }));
     }
 
     #[test]

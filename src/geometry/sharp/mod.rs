@@ -90,15 +90,15 @@ pub struct SharpReport {
     pub crowded: usize,
     /// The largest error of a collapse; see [`SharpOptions::max_error`].
     pub error: f64,
-    /// Every edge has two triangles: a closed surface, seen from outside.
+    /// Triangles pass every edge as often in one direction as in the other: a closed surface, seen from outside.
     pub closed: bool,
 }
 
 /// Makes clipped splats of a mesh: one for each triangle that is left. The same mesh gives the same bytes, however many threads there are.
 ///
 /// # Errors
-/// [`crate::error::ErrorKind::Input`] for a mesh without area or with an edge of more than two triangles or of two that pass it in the
-/// same direction; [`crate::error::ErrorKind::Option`] for a count of 0 and for an error that is not a length.
+/// [`crate::error::ErrorKind::Input`] for a mesh without area; [`crate::error::ErrorKind::Option`] for a count of 0 and for an error that is
+/// not a length.
 pub fn sharp_splats(
     mesh: &Mesh,
     options: &SharpOptions,
@@ -112,11 +112,10 @@ pub fn sharp_splats(
     }
     const TASK: &str = "find ridges";
     progress.step(TASK, 0, 1);
-    let Sound { mesh, edges, repairs } = Sound::of(mesh)?;
+    let Sound { mesh, edges, repairs, closed } = Sound::of(mesh)?;
     let normals = normals_of(&mesh);
     let ridges = Ridges::of(&mesh, &edges, &normals, options.crease_rad);
     progress.step(TASK, 1, 1);
-    let closed = edges.iter().all(|edge| edge.left != edges::NONE && edge.right != edges::NONE);
     drop(edges);
     let goal = Goal {
         triangles: match (options.splats, options.max_error) {
@@ -136,7 +135,7 @@ pub fn sharp_splats(
     loop {
         state.collapse(Goal { triangles: aim, ..goal }, progress);
         let pieces = state.pieces();
-        let model = model(&positions, &state.triangles, &pieces, &ridges.chains)?;
+        let model = model(&positions, &state.triangles, &pieces, &ridges.chains);
         let made = ellipses(&model, options.clipping, progress);
         report = SharpReport { pieces: pieces.len(), error: state.error(), ..report };
         let count: usize = made.iter().map(Vec::len).sum();
@@ -154,20 +153,20 @@ fn model<'a>(
     triangles: &'a [[u32; 3]],
     pieces: &'a [Piece],
     chains: &'a [Vec<u32>],
-) -> Result<Model<'a>> {
+) -> Model<'a> {
     let between = pieces.iter().enumerate().map(|(i, piece)| {
         let [a, b] = piece.ends;
         ((a.min(b), a.max(b)), i)
     });
-    Ok(Model {
+    Model {
         positions,
         triangles,
         normals: triangles.par_iter().map(|t| normal(positions, *t)).collect(),
-        edges: EdgeIndex::of(&edges::edges(positions, triangles)?),
+        edges: EdgeIndex::of(&edges::edges(triangles)),
         between: between.collect(),
         pieces,
         chains,
-    })
+    }
 }
 
 /// Those of each triangle.

@@ -1,14 +1,13 @@
 //! Triangles that are turned around against their neighbors, turned back: in many files of parts a few are.
 
 /// Turns triangles around so that any two at an edge pass it in opposite directions: of each part that hangs together by its edges the
-/// fewer ones, or those that differ from its first triangle where they are half. How many were turned; none where it can't be done for all
-/// parts, as on a Möbius strip.
+/// fewer ones, or those that differ from its first triangle where they are half. How many were turned. Where it can't be done, as on a Möbius
+/// strip, some edges stay as they are: those that agree in the input do so still, as far as that goes.
 pub(super) fn agree(triangles: &mut [[u32; 3]]) -> usize {
     let mut parts = Parts::of(triangles.len());
-    for (a, b, differ) in pairs(triangles) {
-        if !parts.join(a, b, differ) {
-            return 0;
-        }
+    let (differ, agree): (Vec<_>, Vec<_>) = pairs(triangles).into_iter().partition(|(.., differ)| *differ);
+    for (a, b, differ) in agree.into_iter().chain(differ) {
+        parts.join(a, b, differ);
     }
     let kinds: Vec<(u32, bool)> = (0..triangles.len() as u32).map(|i| parts.root(i)).collect();
     // Of each part, by its first triangle: how many have another direction, and how many there are.
@@ -70,16 +69,11 @@ impl Parts {
         (at, differs)
     }
 
-    /// Says of two triangles whether they differ; false where it is known to be otherwise.
-    fn join(&mut self, a: u32, b: u32, differ: bool) -> bool {
+    /// Says of two triangles whether they differ; nothing is changed where it is known whether they do.
+    fn join(&mut self, a: u32, b: u32, differ: bool) {
         let ((a, a_differs), (b, b_differs)) = (self.root(a), self.root(b));
-        let differ = differ ^ a_differs ^ b_differs;
-        match a == b {
-            true => !differ,
-            false => {
-                self.parents[a.max(b) as usize] = (a.min(b), differ);
-                true
-            }
+        if a != b {
+            self.parents[a.max(b) as usize] = (a.min(b), differ ^ a_differs ^ b_differs);
         }
     }
 }

@@ -1,11 +1,12 @@
-//! Ridges of a mesh: edges over which its surface bends, and those at its border, in chains (Kobbelt, Botsch, Schwanecke, Seidel, "Feature
+//! Ridges of a mesh: edges over which its surface bends, those at its border, and those that are cut apart (`edges`), in chains (Kobbelt, Botsch, Schwanecke, Seidel, "Feature
 //! sensitive surface extraction from volume data", 2001; Ivo et al. 2012, section 5).
 //!
 //! A chain goes from one *corner* to another: a vertex at which one ridge ends, more than two meet, or one turns by more than
 //! [`COS_CORNER`] says. One without a corner begins and ends at its vertex of the least number, which then is one.
 //!
 //! **Noise.** Edges bend by two thirds of the threshold at least; a chain counts where one of its edges reaches the threshold. One with
-//! a free end that is shorter than [`SHORTEST`] mean edges is left out, and so is what is left of its neighbors then.
+//! a free end that is shorter than [`SHORTEST`] mean edges is left out, and so is what is left of its neighbors then; but none at which no two triangles
+//! belong together.
 
 use glam::DVec3;
 
@@ -45,6 +46,8 @@ pub(super) struct Ridges {
 struct Crease {
     ends: [u32; 2],
     strong: bool,
+    /// It has no triangle on one side, or is cut apart: never noise.
+    open: bool,
 }
 
 impl Ridges {
@@ -54,10 +57,10 @@ impl Ridges {
         let crease = |edge: &Edge| {
             let ends = [edge.a, edge.b];
             if edge.left == NONE || edge.right == NONE {
-                return Some(Crease { ends, strong: true });
+                return Some(Crease { ends, strong: true, open: true });
             }
             let cos = normals[edge.left as usize].dot(normals[edge.right as usize]);
-            (cos <= weak).then_some(Crease { ends, strong: cos <= strong })
+            (cos <= weak).then_some(Crease { ends, strong: cos <= strong, open: false })
         };
         let mut creases: Vec<Crease> = edges.iter().filter_map(crease).collect();
         let length =
@@ -73,7 +76,8 @@ impl Ridges {
                 let ends = [chain.vertices[0], chain.vertices[chain.vertices.len() - 1]];
                 let long: f64 = chain.vertices.windows(2).map(|pair| length([pair[0], pair[1]])).sum();
                 let weak = !chain.creases.iter().any(|i| creases[*i].strong);
-                if weak || ends.into_iter().any(is_free) && long < SHORTEST * mean {
+                let open = chain.creases.iter().any(|i| creases[*i].open);
+                if weak || ends.into_iter().any(is_free) && long < SHORTEST * mean && !open {
                     chain.creases.iter().for_each(|i| keep[*i] = false);
                 }
             }

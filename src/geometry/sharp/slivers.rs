@@ -78,7 +78,7 @@ mod tests {
             let triangles = [&whole[..], &flat[..], &[[2, 2, 1]]].concat();
             let mut mesh = Mesh { positions: places.to_vec(), triangles, ..Mesh::default() };
             assert_eq!(leave_out(&mut mesh), 3);
-            let edges = edges(&mesh.positions, &mesh.triangles).unwrap();
+            let edges = edges(&mesh.triangles).all;
             assert!(edges.iter().all(|edge| edge.left != NONE && edge.right != NONE), "{:?}", mesh.triangles);
             assert_eq!(mesh.triangles.len(), 8);
             assert!(mesh.triangles.iter().all(|t| corners(&mesh, *t).is_some()));

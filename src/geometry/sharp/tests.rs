@@ -1,5 +1,6 @@
 //! Whole conversions.
 
+mod cut_apart;
 mod distances;
 mod gaps;
 mod rival;

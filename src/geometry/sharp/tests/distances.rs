@@ -27,7 +27,7 @@ pub(super) fn distance(all: &[f64]) -> Distance {
 }
 
 /// From places of splats that are not cut off to the mesh, by area alike on each splat.
-fn to_mesh(splats: &Splats, mesh: &Mesh) -> Distance {
+pub(super) fn to_mesh(splats: &Splats, mesh: &Mesh) -> Distance {
     let Shapes::Ellipses { s, t } = &splats.shapes else { panic!("ellipses") };
     let triangles: Vec<([DVec3; 3], DVec3, f64)> = (0..mesh.triangles.len())
         .map(|i| {
@@ -67,7 +67,7 @@ pub(super) fn to_triangle(place: DVec3, p: [DVec3; 3]) -> f64 {
 
 /// From the vertices and the middles of triangles to the nearest splat above or below which they are, by its plane; where they are on none, to
 /// the nearest place of one.
-fn to_splats(mesh: &Mesh, splats: &Splats) -> Distance {
+pub(super) fn to_splats(mesh: &Mesh, splats: &Splats) -> Distance {
     let Shapes::Ellipses { s, t } = &splats.shapes else { panic!("ellipses") };
     let middles = (0..mesh.triangles.len()).map(|i| mesh.corners(i).unwrap().iter().sum::<DVec3>() / 3.0);
     let places: Vec<DVec3> = mesh.positions.iter().copied().chain(middles).collect();
