@@ -12,7 +12,7 @@ use crate::{
         invocations::{Invocations, are_small},
         seen::PotentiallyVisibleBlocks,
     },
-    scene::Settings,
+    scene::{Settings, TileInvocations},
     shaders::config::*,
     vk::Limits,
 };
@@ -50,11 +50,23 @@ impl<'a> Drawn<'a> {
     }
 }
 
+/// What an invocation draws: by all that is drawn, so that all bands have the same.
+fn wanted(drawn: Drawn<'_>, settings: &Settings, limits: &Limits) -> Invocations {
+    let small = are_small(drawn.boxes.iter().copied(), settings.edges);
+    Invocations::of(settings.tile_invocations, limits, small)
+}
+
 impl TilePlan {
     /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
     pub fn of(drawn: Drawn<'_>, culls_hidden: bool, settings: &Settings, limits: &Limits) -> Option<Self> {
-        let boxes = drawn.boxes.iter().copied();
-        Self::of_rows(drawn, boxes, rows_of_image(settings), culls_hidden, settings, limits)
+        let of = |invocations| {
+            let (boxes, area) = (drawn.boxes.iter().copied(), all_of(settings.size_px));
+            Self::of_boxes(drawn.draws.len(), boxes, area, limits, invocations)
+        };
+        let wanted = wanted(drawn, settings, limits);
+        // Twice as many tiles of a huge image may have no room; in no band then.
+        let plan = of(wanted).or_else(|| of(wanted.of_full_height()))?;
+        plan.when_drawn(drawn.draws, culls_hidden, limits)
     }
 
     /// This one, of all rows, or what the blocks that may be seen need, if that is less and draws as much.
@@ -80,7 +92,29 @@ impl TilePlan {
         settings: &Settings,
         limits: &Limits,
     ) -> Option<Self> {
-        Self::of_rows(drawn, seen.boxes(&rows), rows, culls_hidden, settings, limits)
+        let of = |invocations| {
+            let area = (settings.size_px, rows.clone());
+            Self::of_boxes(drawn.draws.len(), seen.boxes(&rows), area, limits, invocations)
+        };
+        let may_be_high = settings.tile_invocations == TileInvocations::Auto;
+        let plan = Self::with_room(of, wanted(drawn, settings, limits), may_be_high)?;
+        plan.when_drawn(drawn.draws, culls_hidden, limits)
+    }
+
+    /// The plan that `of` gives for these invocations. Lists of tiles half as high have up to twice the entries, and may have no room for all: some splats would then be left to the graphics pipeline. So tiles are higher
+    /// where that leaves none, if they may be, and where twice as many tiles of a huge image have no room; in no band then.
+    pub(super) fn with_room(
+        of: impl Fn(Invocations) -> Option<Self>,
+        wanted: Invocations,
+        may_be_high: bool,
+    ) -> Option<Self> {
+        let higher = || of(wanted.of_full_height());
+        match of(wanted) {
+            Some(plan) if plan.may_be_large && may_be_high => {
+                higher().filter(|higher| !higher.may_be_large).or(Some(plan))
+            }
+            plan => plan.or_else(higher),
+        }
     }
 
     /// The same for some rows of what this one draws. With the same splats left to the graphics pipeline; or, if the rows have `own_room`, with those that have none in these rows'
@@ -98,25 +132,6 @@ impl TilePlan {
         let plan = Self::of_boxes(draws.len(), seen.boxes(&rows), area, limits, self.invocations)?;
         // Bands are to save memory, which the counts of more pieces take.
         Self { pieces: 1, ..plan.within(rows) }.when_drawn(draws, self.hidden, limits)
-    }
-
-    /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
-    fn of_rows(
-        Drawn { draws, boxes: all }: Drawn<'_>,
-        boxes: impl Iterator<Item = (u32, f64)> + Clone,
-        rows: Range<u32>,
-        culls_hidden: bool,
-        settings: &Settings,
-        limits: &Limits,
-    ) -> Option<Self> {
-        // By all that is drawn, so that all bands have the same.
-        let small = are_small(all.iter().copied(), settings.edges);
-        let invocations = Invocations::of(settings.tile_invocations, limits, small);
-        let area = (settings.size_px, rows);
-        let of = |invocations| Self::of_boxes(draws.len(), boxes.clone(), area.clone(), limits, invocations);
-        // Twice as many tiles of a huge image may have no room; in no band then.
-        let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?;
-        plan.when_drawn(draws, culls_hidden, limits)
     }
 
     pub(crate) fn when_drawn(self, draws: &[Draw<'_>], culls_hidden: bool, limits: &Limits) -> Option<Self> {

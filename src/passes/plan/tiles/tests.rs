@@ -185,3 +185,18 @@ fn bands_agree_on_what_they_have_in_common() {
         }
     }
 }
+
+/// Nodes of levels of detail, as long as a block's longest for all that is known.
+#[test]
+fn tiles_are_higher_where_lists_of_low_ones_have_no_room() {
+    let of = |px| move |invocations| plan_of(&[(2_000_000, px)], [1024, 1024], invocations);
+    let [short, high] = [Invocations::ShortColumns, Invocations::Columns];
+    assert!(of(20.0)(short).unwrap().may_be_large && !of(20.0)(high).unwrap().may_be_large);
+    let found = |px, may_be_high| TilePlan::with_room(of(px), short, may_be_high).unwrap();
+    assert_eq!(found(20.0, true), of(20.0)(high).unwrap());
+    // Named tiles stay; so do those that have room, and where no tiles have.
+    assert_eq!(found(20.0, false), of(20.0)(short).unwrap());
+    for px in [8.0, 60.0] {
+        assert_eq!(found(px, true), of(px)(short).unwrap());
+    }
+}
