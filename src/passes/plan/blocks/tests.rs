@@ -3,10 +3,7 @@ use glam::DVec3;
 use super::{walk::Closer, *};
 use crate::{
     arena::Arena,
-    math::{
-        random::SplitMix,
-        size::{half_image, sides},
-    },
+    math::{random::SplitMix, size},
     prepare::Rebase,
     scene::Camera,
 };
@@ -91,18 +88,16 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
         let focal_px = camera.focal_px(SIZE_PX[1]);
         let plane = |z: f64| if parallel { 1.0 } else { z };
         let ray_to = |point: DVec3| if parallel { camera.forward() } else { point - camera.eye };
-        let near = camera.near() * view.view_from_world_scale;
-        let (size_px, middle_px) = (SIZE_PX.map(f64::from), camera.middle_px(SIZE_PX));
         let focal_of_view = if parallel { focal_px / view.view_from_world_scale } else { focal_px };
         let bound = SizeBound {
             nearest_z: -1.0,
             largest_radius: radius * view.view_from_local_scale,
-            near,
+            near: camera.near() * view.view_from_world_scale,
             focal_px: focal_of_view,
             is_orthographic: parallel,
-            size_px,
-            middle_px,
-            sides: sides(size_px, middle_px, focal_of_view),
+            size_px: SIZE_PX.map(f64::from),
+            middle_px: camera.middle_px(SIZE_PX),
+            sides: size::sides(SIZE_PX.map(f64::from), camera.middle_px(SIZE_PX), focal_of_view),
             filter_px: std::f64::consts::SQRT_2,
             reach_px: 0.0,
         };
@@ -113,7 +108,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             levels: None,
             planes: if cuts { &[plane_beside] } else { &[] },
             by_origin: view.origin_from_eye.length() + (origin.length() + 3.0) * view.view_from_local_scale,
-            half_image: half_image(&bound),
+            half_image: size::half_image(&bound),
         };
         let seen = look_at_one(0, &block, &look);
         for disk in &disks {
