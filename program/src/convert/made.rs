@@ -105,11 +105,8 @@ fn sharp(arguments: &ConvertArguments, bars: &Bars) -> Result<Made> {
         SharpOptions { splats: arguments.splats, max_error: arguments.max_error, ..SharpOptions::default() };
     let made = sharpened(&mesh, file_name(path), &options, bars);
     let (object, mut report) = made.map_err(|error| match error.kind() {
-        // The library knows no file, and no option that takes any mesh.
-        ErrorKind::Input { place, problem, .. } if place.is_empty() => Error::input(path, "", problem),
-        ErrorKind::Input { place, problem, .. } => {
-            Error::input(path, place, format!("{problem}; --resample 100k makes disks of any mesh"))
-        }
+        // The library knows no file.
+        ErrorKind::Input { place, problem, .. } => Error::input(path, place, problem),
         _ => error,
     })?;
     report.notes = [notes, report.notes].concat();
