@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use surfel::Result;
 
-use super::{picture::Use, printed, viewer::Viewer};
+use super::{hidden, picture::Use, printed, viewer::Viewer};
 use crate::console;
 
 /// How soon the cost of a frame is looked for again that is not done.
@@ -34,15 +34,15 @@ impl Viewer {
                     continue;
                 }
                 // A picture at rest tells of moving ones where they are the same.
-                let is_hidden = ["ahead", "again"].contains(&cost.what);
+                let is_hidden = hidden::is_of_hidden(cost.what);
                 if is_moving && !is_hidden && (which == Use::Moving || self.pace.is_finest()) {
                     let secs = period.map_or(cost.secs, |period| period.as_secs_f64());
                     self.pace.learn(secs, cost.compiles || is_first);
                 }
-                if ["whole", "again"].contains(&cost.what) && !cost.compiles {
+                if ["whole", hidden::AGAIN].contains(&cost.what) && !cost.compiles {
                     self.pace.learn_whole(cost.secs);
                     let hidden = self.next_hidden(&self.whole());
-                    self.refines = self.refines.or(hidden.map(|_| Instant::now()));
+                    self.refines = self.refines.or(hidden.map(|_| self.hidden_from(Instant::now())));
                 }
                 if cost.what != "step" && !is_hidden {
                     self.ui.history.push(&cost);

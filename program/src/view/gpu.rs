@@ -21,7 +21,7 @@ use super::{
     device::is_device_lost,
     frame::{Frame, begin_rendering, end_rendering},
     frame_desc::{Drawn, FrameDesc},
-    memory,
+    hidden, memory,
     overlay::OverlayPass,
     picture::{Begun, Picture, Use},
     show::Show,
@@ -218,6 +218,7 @@ impl Gpu {
         for ((which, view), is_step) in desc.views.iter().zip(steps) {
             let slot = &mut self.pictures[which.index()];
             let what = match which {
+                _ if slot.is_under_way() && hidden::is_of_hidden(desc.what) => hidden::STEP,
                 _ if slot.is_under_way() => "step",
                 Use::Other => "other",
                 _ => desc.what,

@@ -1,5 +1,7 @@
 //! Pictures that nobody sees, drawn while the window rests, so that what a hand comes to next finds pipelines that have run.
 
+use std::time::{Duration, Instant};
+
 use surfel::scene::{Camera, Lod, Settings};
 
 use super::{refine::LEVELED_PX, viewer::Viewer};
@@ -24,10 +26,34 @@ pub struct HiddenPicture {
     pub settings: Settings,
 }
 
+/// What a picture is that nobody sees, in a word: [`Hidden::Whole`], [`Hidden::From`], any other, and a step of one.
+pub const AGAIN: &str = "again";
+pub const ELSEWHERE: &str = "ahead, from elsewhere";
+pub const AHEAD: &str = "ahead";
+pub const STEP: &str = "ahead, a step";
+
+/// Whether that is it.
+pub fn is_of_hidden(what: &str) -> bool {
+    [AGAIN, ELSEWHERE, AHEAD, STEP].contains(&what)
+}
+
+/// After a hand nothing is drawn that nobody sees before the window has rested for so long: a hand that only pauses would wait for it, and where pipelines run for the first time that is most of
+/// a second.
+pub const PAUSE: Duration = Duration::from_millis(400);
+
 /// Distances over that of now from which other pipelines draw the scene: of splats of other sizes in pixels tiles are of other heights, large ones are drawn apart, and some are beside the picture or near the eye.
 const DISTANCES: [f64; 3] = [1.0 / 4.0, 1.0 / 16.0, 4.0];
 
 impl Hidden {
+    /// What it is, in a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Whole => AGAIN,
+            Self::From(..) => ELSEWHERE,
+            Self::Moving(_) | Self::Leveled => AHEAD,
+        }
+    }
+
     /// Whether another device draws both before the window draws one of them. Those that a hand comes to at once are before the others.
     pub fn comes_with(self, other: Self) -> bool {
         matches!(self, Self::From(..)) == matches!(other, Self::From(..))
@@ -38,6 +64,11 @@ impl Viewer {
     /// The first of [`Self::hidden_pictures`].
     pub fn next_hidden(&self, whole: &Settings) -> Option<HiddenPicture> {
         self.hidden_pictures(whole).into_iter().next()
+    }
+
+    /// When the first of them may be drawn, of a picture at rest that is drawn now.
+    pub fn hidden_from(&self, now: Instant) -> Instant {
+        if self.pace.has_moved() { now + PAUSE } else { now }
     }
 
     /// Pictures that are to be drawn once and that nobody sees, so that the first ones of a hand, and the first when it rests, find pipelines that have run.

@@ -120,8 +120,12 @@ impl Viewer {
     /// A step is drawn: the next one comes once the device is done with it.
     pub fn refine(&mut self, whole: &Settings) {
         self.refined += 1;
-        let goes_on = self.next_refinement(whole).is_some() || self.next_hidden(whole).is_some();
-        self.refines = goes_on.then(|| Instant::now() + LOOK);
+        let now = Instant::now();
+        self.refines = if self.next_refinement(whole).is_some() {
+            Some(now + LOOK)
+        } else {
+            self.next_hidden(whole).map(|_| self.hidden_from(now))
+        };
     }
 
     /// Whether levels of detail may come before all of it.

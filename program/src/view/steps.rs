@@ -111,8 +111,7 @@ impl Viewer {
         let wants = (self.is_stale || is_coarse || refines) && !begins_again && can_be_drawn;
         if !wants && !is_moving && refinement.is_none() && can_be_drawn && self.can_refine()? {
             if let Some(HiddenPicture { what, camera, settings }) = self.next_hidden(whole) {
-                let word = if what == Hidden::Whole { "again" } else { "ahead" };
-                let choice = self.choice_of(vec![(Use::Moving, settings)], Some(camera), word);
+                let choice = self.choice_of(vec![(Use::Moving, settings)], Some(camera), what.word());
                 return Ok(Choice { hidden: Some(what), ..choice });
             }
             self.refines = None;

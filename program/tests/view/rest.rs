@@ -9,7 +9,7 @@ use super::{
     CAMERA,
     faults::open_below,
     screen::Screen,
-    window::{Folder, View, render, surfel},
+    window::{Folder, View, hidden as hidden_in, render, surfel},
 };
 
 /// A cube of triangles.
@@ -75,7 +75,7 @@ fn settled(view: &View<'_>, quiet: Duration, hidden: usize) -> usize {
     loop {
         let before = shown(view);
         thread::sleep(quiet);
-        let now = view.printed().lines().filter(|line| line.starts_with("ahead ")).count();
+        let now = hidden_in(&view.printed());
         if now != ahead {
             (ahead, since) = (now, Instant::now());
         }

@@ -158,6 +158,10 @@ fn what_a_hand_comes_to_has_run_before() {
     let printing = [&words[..], &["--print-frames"]].concat();
     let mut view = View::open_in(&screen, &folder, &printing, true, &environment);
     view.wait_for(&render(&folder, &words));
+    // As many as it moves by, and from elsewhere, for which another device compiles after those.
+    let from_elsewhere =
+        |view: &mut View<'_>| view.printed().matches("\nahead, from elsewhere ").count() >= 6;
+    view.wait("pictures from elsewhere are drawn", from_elsewhere);
     view.wait_for_hidden(6);
     // How coarse these are follows from what all of it costs: not from a frame that had others compiled.
     let all = view.printed();

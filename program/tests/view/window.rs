@@ -65,6 +65,12 @@ pub struct View<'a> {
     is_validated: bool,
 }
 
+/// How many pictures that nobody sees were drawn; not those that are drawn once more.
+pub fn hidden(printed: &str) -> usize {
+    let is_hidden = |line: &&str| line.starts_with("ahead ") || line.starts_with("ahead, from elsewhere ");
+    printed.lines().filter(is_hidden).count()
+}
+
 impl<'a> View<'a> {
     /// Opens it, and gives it the keyboard.
     pub fn open(screen: &'a Screen, folder: &'a Folder, words: &[&str]) -> Self {
@@ -177,7 +183,7 @@ impl<'a> View<'a> {
     pub fn wait_for_hidden(&mut self, least: usize) {
         let mut seen = (0, Instant::now());
         self.wait("pictures that nobody sees are drawn", |view| {
-            let count = view.printed().lines().filter(|line| line.starts_with("ahead ")).count();
+            let count = hidden(&view.printed());
             if count != seen.0 {
                 seen = (count, Instant::now());
             }
