@@ -12,8 +12,9 @@ pub struct ErrorBall {
     pub center: Vec3,
     /// Of the ball around the node's ellipse, all disks below and the children's balls.
     pub radius: f32,
-    /// How far what is below spreads: the root of the mean squared distance of the disks' centers from the node's, by area; or a
-    /// quarter of the node's longer half axis, or what a child has, if that is more. Above those of the children, and above 0.
+    /// How far what is below spreads: the root of the mean squared distance of the disks' centers from the node's, by area, times 1 where all has one normal
+    /// and one color, up to 2 where these differ; or a quarter of the node's longer half axis, or what a child has, if that is more. Above those of the
+    /// children, and above 0.
     pub spread: f32,
 }
 

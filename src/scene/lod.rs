@@ -8,8 +8,8 @@ pub enum Lod {
     /// One pixel, of what has levels of detail; none are made for it. With a [`super::Budget`], what that leaves.
     #[default]
     Auto,
-    /// So many pixels, at least 0: how far the centers spread of what the splat stands for, the root of their mean squared distance from its own. One
-    /// pixel is as far as the low-pass filter spreads what it sees. With 0, what is drawn is the scene itself.
+    /// So many pixels, at least 0: how far the centers spread of what the splat stands for, the root of their mean squared distance from its own, up to
+    /// twice as much where normals or colors differ. One pixel is as far as the low-pass filter spreads what it sees. With 0, what is drawn is the scene itself.
     Px(f64),
     /// So many percent of the picture's area, as the paper has it: of a disk, which spreads by its radius over √2.
     Percent(f64),

@@ -9,7 +9,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::disks::Disk;
+use super::{contrast::Contrast, disks::Disk};
 use crate::scene::ErrorBall;
 
 /// By which parts of itself each bound is larger than it must be.
@@ -44,9 +44,10 @@ impl Bounds {
     pub(super) const NONE: Self =
         Self { error: ErrorBall::LEAF, cone: NormalCone { axis: Vec3::Z, cos: -1.0 } };
 
-    /// Around an ellipse with this center (from the origin), unit normal, longer half axis and spread, the children's bounds, and disks.
+    /// Around an ellipse with this center (from the origin), unit normal, longer half axis, spread and contrast, the children's bounds, and disks.
     pub(super) fn around<'a>(
-        (center, normal, half_axis, spread): (DVec3, DVec3, f64, f64),
+        (center, normal, half_axis): (DVec3, DVec3, f64),
+        (spread, contrast): (f64, Contrast),
         children: &[Self],
         origin: DVec3,
         disks: impl Iterator<Item = &'a Disk>,
@@ -54,7 +55,7 @@ impl Bounds {
         let (ball_center, axis) = (center.as_vec3(), normal.as_vec3());
         let middle = ball_center.as_dvec3();
         let mut radius = middle.distance(center) + half_axis;
-        let mut spread = spread.max(half_axis / LONGEST);
+        let mut spread = (contrast.size_factor() * spread).max(half_axis / LONGEST);
         let (mut angle_rad, mut chord_square) = (0.0_f64, 0.0_f32);
         for Self { error, cone } in children {
             radius = radius.max(middle.distance(error.center.as_dvec3()) + f64::from(error.radius));

@@ -9,10 +9,11 @@
 //! (`sums`). Drawn is a part of it, whose kernel spreads about as those below do together.
 //!
 //! **Any node decides alone whether it is drawn** (`bounds`, `select`): each has a ball and a length that make its size on the screen
-//! never larger than its parent's, from wherever it is seen.
+//! never larger than its parent's, from wherever it is seen. The length grows with how much what is below differs (`contrast`).
 
 mod bounds;
 mod clipped;
+mod contrast;
 mod disks;
 mod ellipse;
 mod farthest;

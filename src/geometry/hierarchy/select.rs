@@ -1,8 +1,8 @@
 //! Which nodes are drawn: as many pixels large as asked for at most (Pajarola et al. 2003, section 5.1), decided by each for itself.
 //!
 //! The paper's size is the area of the projected ellipse. Here it is the *spread* of the surface below, the root of the mean squared distance from
-//! centers below from the node's: what merging displaces, whatever ellipse holds it. A picture whose nodes spread by no
-//! more than the filter does loses little by them.
+//! centers below from the node's: what merging displaces, whatever ellipse holds it; up to twice that where it differs in what is
+//! seen of it (`contrast`). A picture whose nodes spread by no more than the filter does loses little by them.
 //!
 //! The paper walks down from the root. Here a node or splat is drawn if and only if its own size on the screen is at most τ and its
 //! parent's is above τ. **Exactly one on each path from the root to a splat is drawn, for every eye:** sizes never grow along the path.
@@ -61,7 +61,7 @@ impl Projection {
         }
     }
 
-    /// The size on the screen in pixels: how far what is below spreads, in a picture in the middle of which it is, if it were seen at right
+    /// The size on the screen in pixels: how far what is below spreads, by its ball, in a picture in the middle of which it is, if it were seen at right
     /// angles. One pixel is as far as the low-pass filter itself spreads what it sees: its standard deviation is √½ along each axis.
     pub fn size_px(&self, ball: &ErrorBall) -> f64 {
         let spread = f64::from(ball.spread);

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::{
     Node, STEPS,
     bounds::Bounds,
+    contrast::Contrast,
     disks::{Disk, Disks},
     ellipse::Ellipse,
     moments::Moments,
@@ -41,6 +42,8 @@ pub(super) struct Sums {
     normal: DVec3,
     /// Red, green and blue by area and alpha; alpha by area.
     color: [f64; 4],
+    /// Squares of red, green and blue, each times alpha, by area.
+    color_squares: f64,
     /// Of the moments, what the disks have about their own centers.
     own: Moments,
 }
@@ -69,8 +72,9 @@ pub(super) fn node_splats(
             let (drawn, color) = (ellipse.drawn_parts((s, t), node.splats.len()), sums.mean_color());
             *splat = NodeSplat { center, s: s.as_vec3(), t: t.as_vec3(), color, drawn };
             let leaves = node.leaf_runs(&tree.nodes).flat_map(|run| disks.run(&run));
-            let own = (center - origin, ellipse.normal, s.length(), spread);
-            *bounds = Bounds::around(own, &bounds_below[below(node, level)], origin, leaves);
+            let own = (center - origin, ellipse.normal, s.length());
+            let size = (spread, sums.contrast());
+            *bounds = Bounds::around(own, size, &bounds_below[below(node, level)], origin, leaves);
         });
         sums_below = sums;
     }
@@ -109,15 +113,24 @@ impl Sums {
         moments: Moments::NONE,
         normal: DVec3::ZERO,
         color: [0.0; 4],
+        color_squares: 0.0,
         own: Moments::NONE,
     };
 
     pub fn of_disk(disk: &Disk, colors: &Colors) -> Self {
         let moments = Moments::of(disk);
         let [red, green, blue, alpha] = colors.get(disk.number as usize).unwrap_or_default().map(f64::from);
-        let alpha = alpha.clamp(0.0, 1.0) * moments.weight;
-        let color = [alpha * red, alpha * green, alpha * blue, alpha];
-        Self { center: disk.center, moments, normal: disk.area_normal(), color, own: moments }
+        let (alpha, weight) = (alpha.clamp(0.0, 1.0), moments.weight);
+        let seen = alpha * DVec3::new(red, green, blue);
+        let [red, green, blue] = (weight * seen).to_array();
+        Self {
+            center: disk.center,
+            moments,
+            normal: disk.area_normal(),
+            color: [red, green, blue, weight * alpha],
+            color_squares: weight * seen.length_squared(),
+            own: moments,
+        }
     }
 
     pub fn of_parts(parts: &[Self]) -> Self {
@@ -133,6 +146,7 @@ impl Sums {
             sums.moments += part.moments.moved(part.center - sums.center);
             sums.normal += part.normal;
             sums.own += part.own;
+            sums.color_squares += part.color_squares;
             sums.color = std::array::from_fn(|i| sums.color[i] + part.color[i]);
         }
         sums
@@ -146,6 +160,13 @@ impl Sums {
         let of_kernels = self.moments.covariance_of_kernels(&self.own);
         let mean_normal = self.normal / self.moments.weight;
         (Ellipse::new(self.center, mean_normal, &covariance, &of_kernels), spread)
+    }
+
+    /// How much of what this is the sum of differs.
+    pub fn contrast(&self) -> Contrast {
+        let [red, green, blue, _] = self.color;
+        let weight = self.moments.weight;
+        Contrast::of(self.normal / weight, DVec3::new(red, green, blue) / weight, self.color_squares / weight)
     }
 
     /// Straight alpha; black where nothing is seen.

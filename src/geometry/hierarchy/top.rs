@@ -160,8 +160,9 @@ impl Top {
                 }
             }
             let center = node.sums.center;
-            let own = (center - self.origin, node.ellipse.normal, s.length(), node.spread);
-            bounds[number] = Bounds::around(own, &below, self.origin, leaves.iter());
+            let own = (center - self.origin, node.ellipse.normal, s.length());
+            let size = (node.spread, node.sums.contrast());
+            bounds[number] = Bounds::around(own, size, &below, self.origin, leaves.iter());
             let axes = [s.as_vec3(), t.as_vec3()];
             let area = axes[0].as_dvec3().cross(axes[1].as_dvec3()).length();
             finished.push(TopNode {

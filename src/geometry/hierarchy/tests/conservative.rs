@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::models::models;
+use super::{contrast::factor_of, models::models};
 use crate::{
     geometry::hierarchy::{Hierarchy, disks::Disks},
     scene::{Shapes, Splats},
@@ -33,7 +33,8 @@ fn every_node_bounds_every_disk_below_it() {
             let normal_of_plane = s.cross(t).normalize();
             let mut farthest: f64 = 0.0;
             let (mut squares, mut area) = (0.0, 0.0);
-            for disk in &disks[node.splats.start as usize..node.splats.end as usize] {
+            let below = &disks[node.splats.start as usize..node.splats.end as usize];
+            for disk in below {
                 let normal = disk.area_normal().normalize();
                 squares += disk.area_normal().length() * disk.center.distance_squared(center);
                 area += disk.area_normal().length();
@@ -57,8 +58,9 @@ fn every_node_bounds_every_disk_below_it() {
             }
             assert!(farthest <= 1.0, "{name}: node {i}: {farthest}");
             slack.push(1.0 / farthest);
-            // How far what is below spreads: exactly where no child does more.
-            let spread = (squares / area).sqrt().max(0.25 * s.length().max(t.length()));
+            // How far what is below spreads, times how much it differs: exactly where no child does more.
+            let factor = factor_of(below, &splats.colors);
+            let spread = (factor * (squares / area).sqrt()).max(0.25 * s.length().max(t.length()));
             assert!(f64::from(bounds.error.spread) >= (1.0 - 1e-6) * spread, "{name}: node {i}, spread");
             if node.children.is_empty() {
                 assert!(f64::from(bounds.error.spread) <= (1.0 + 1e-5) * spread, "{name}: node {i}, spread");
