@@ -1,5 +1,6 @@
 //! Levels of detail on the device: what is drawn is what the hierarchy selects, and looks like the scene.
 
+mod near;
 mod selected;
 
 use crate::common::{PICTURE, assert_same_bits, passes, render_as, scenes, shared, with};
@@ -47,7 +48,7 @@ fn little_leaps_where_levels_blend() {
     let mut leaps = |steps: LodSteps| {
         let mut last: Vec<[u8; 4]> = Vec::new();
         let mut leaps = [0_usize; 2];
-        for step in 0..13 {
+        for step in 0..61 {
             let lod = Lod::Px(1.0025_f64.powi(step));
             let settings = Settings { lod, lod_steps: steps, ..hard.settings.clone() };
             let picture = headless.render(&prepared, &hard.camera, &settings, wanted).unwrap().srgb;

@@ -5,7 +5,8 @@
 //! drawn for each larger one, or what is below it. Sizes are all that a device needs to choose the same, and change with the camera as distances do.
 //!
 //! Nodes count where they are in the view and face the eye, as a device finds it. Splats of the object count by the mean normal and the mean radius of
-//! those that share a parent: for to look at each would take as long as to draw it. What that leaves of doubt [`SHARE`] keeps free.
+//! those that share a parent: for to look at each would take as long as to draw it. Of those at a silhouette a part faces the eye: normals whose mean is m differ from it along a ray by
+//! √((1 − |m|²) / 2), if they do as much in each direction, and as many of them face the eye as of a uniform distribution that wide. What that leaves of doubt [`SHARE`] keeps free.
 
 use std::borrow::Cow;
 
@@ -17,8 +18,14 @@ use crate::{
     scene::{Backfaces, Budget, Camera, ErrorBall, Filter, LeveledObject, Lod, Settings, ViewFromWorld},
 };
 
-/// The part of a budget that is given out. Of 74 pairs of a view and a budget 97.8 to 99.8% was filled (`benches/README.md`).
+/// The part of a budget that is given out. Of 74 pairs of a view and a budget 98.6 to 99.8% was filled (`benches/README.md`).
 const SHARE: f64 = 0.992;
+
+/// What a group counts at most: it has eight splats at most in our own hierarchies.
+const MOST_OF_GROUP: u8 = 250;
+
+/// Parts of a splat that are counted.
+const PARTS: i16 = 64;
 
 /// What a device finds in f32 of a size may be less than this file's f64 by so much of it.
 const RESERVE: f64 = 1e-5;
@@ -59,7 +66,7 @@ pub fn count_drawn(objects: &[LeveledObject], camera: &Camera, settings: &Settin
 /// What is drawn more below a size on the screen. By one thread, in a frame's memory: a pool of threads takes some from the heap.
 struct Counted<'m> {
     arena: &'m Arena,
-    /// The size in pixels, and how many splats are more.
+    /// The size in pixels, and how many [`PARTS`] of splats are more.
     nodes: ArenaVec<'m, (f32, i16)>,
 }
 
@@ -92,13 +99,13 @@ impl Counted<'_> {
     /// How many splats are drawn for a size.
     fn count(&self, tau_px: f64) -> i64 {
         let drawn = self.nodes.iter().filter(|(size_px, _)| f64::from(*size_px) > tau_px);
-        drawn.map(|(_, more)| i64::from(*more)).sum()
+        drawn.map(|(_, more)| i64::from(*more)).sum::<i64>() / i64::from(PARTS)
     }
 
     /// The least size for which no more than so many splats are drawn; more than all where even the roots are more.
     fn tau_px(mut self, most: i64) -> f64 {
         // From the largest on; a part of them after the other, as few as needed are sorted.
-        let mut left = most;
+        let mut left = i64::from(PARTS) * most;
         let mut nodes = self.nodes.as_mut_slice();
         while nodes.len() > 1 {
             let middle = nodes.len() / 2;
@@ -173,17 +180,32 @@ impl View {
         (spread_px / distance.max(self.near)) as f32
     }
 
-    /// How many of a group a device would draw.
+    /// How many [`PARTS`] of a group a device would draw.
     fn seen(&self, ball: &ErrorBall, group: &Group) -> i16 {
-        let count = i16::from(group.count);
+        let count = PARTS * i16::from(group.count.min(MOST_OF_GROUP));
         if count == 0 || ball.spread.is_infinite() {
             return count;
         }
         let place = self.place(ball);
-        let ray = if self.is_orthographic { self.forward } else { place - self.view.eye };
-        let [x, y, z] = group.normal.map(f64::from);
-        let faces_away = self.culls && ray.dot(DVec3::new(x, y, z)) > 0.0;
-        if !faces_away && self.is_inside(self.view.point(place), group.half_axis) { count } else { 0 }
+        let facing = if self.culls { self.facing(place, group) } else { 1.0 };
+        if facing > 0.0 && self.is_inside(self.view.point(place), group.half_axis) {
+            (f64::from(count) * facing).round() as i16
+        } else {
+            0
+        }
+    }
+
+    /// Which part of a group faces the eye.
+    fn facing(&self, place: DVec3, group: &Group) -> f64 {
+        let ray =
+            if self.is_orthographic { self.forward } else { (place - self.view.eye).normalize_or_zero() };
+        let mean = DVec3::from(group.normal.map(f64::from)) / 127.0;
+        let toward = -ray.dot(mean);
+        // Of one alone, whose mean is as long as it is rounded.
+        let square = if group.count > 1 { (1.0 - mean.length_squared()).max(0.0) } else { 0.0 };
+        // A uniform distribution is as wide to each side as this.
+        let half = (1.5 * square).sqrt();
+        if toward.abs() < half { 0.5 + 0.5 * toward / half } else { f64::from(u8::from(toward >= 0.0)) }
     }
 
     /// As a device finds it of splats (`glsl/mark_visible.comp.glsl`).

@@ -19,7 +19,7 @@ fn what_is_drawn_is_what_the_hierarchy_selects() {
     let mut hard = with(&ball(20_000, 1.0), |settings| settings.backfaces = Backfaces::Flip);
     let hierarchy = Hierarchy::build(&hard.scene.objects[0].splats, &()).unwrap();
     let mut drawn = Vec::new();
-    for (round, tau_px) in [0.5, 1.0, 2.0, 4.0, 8.0, 16.0].into_iter().cycle().take(24).enumerate() {
+    for (round, tau_px) in [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0].into_iter().cycle().take(28).enumerate() {
         let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
         let orthographic_height = (round % 3 == 2).then_some(4.0);
         let eye = direction * (4.0 + 6.0 * random.unit());
@@ -113,7 +113,7 @@ fn a_budget_is_kept_and_filled() {
             let share = drawn as f64 / f64::from(most);
             println!("round {round}: {drawn} of {most}, {all} in all");
             assert!(share <= 1.0, "round {round}: {drawn} of {most}");
-            assert!(share >= 0.97 || all <= u64::from(most), "round {round}: {drawn} of {most}");
+            assert!(share >= 0.98 || all <= u64::from(most), "round {round}: {drawn} of {most}");
             least = if all > u64::from(most) { least.min(share) } else { least };
         }
     }
