@@ -78,8 +78,8 @@ fn a_camera_that_moves_sees_the_whole_at_every_moment() {
     let bytes = file_of(400_000);
     let (file, _) = opened(&bytes);
     let (all, pages) = (file.pages().iter().map(|page| page.device_bytes()).sum::<u64>(), file.pages().len());
-    // Half of that is for the finest step: about a third of all is needed from afar.
-    let most_bytes = all;
+    // Half of that is for the finest step: about three fifths of all are needed from afar.
+    let most_bytes = 5 * all / 4;
     let mut paged = PagedScene::new(Pager::start(file).unwrap(), most_bytes).unwrap();
     // Hard edges: whether some chunk has splats for the graphics pipeline, which decides whether tiles cover pixels in part, differs between the two scenes.
     let mut hard = with(&ball(1, 1.0), |settings| {
