@@ -7,7 +7,7 @@ use glam::DVec3;
 use surfel::{
     Settings,
     embed::{Device, Import, Placed, Placement, Renderer, Rendering, View, ViewFrame},
-    scene::{Object, Rasterizer, Scene},
+    scene::{Object, Rasterizer, Scene, TileMemory},
 };
 
 use super::{
@@ -24,6 +24,9 @@ const COLD_FRAMES: usize = 80;
 
 /// Of 64 bytes.
 const LINE_WORDS: usize = 8;
+
+/// Open ones of which all lists have the memory that they want, so that frames are in one band.
+const WITH_ROOM: &str = "open, lists have room";
 
 fn sorted(times: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut times: Vec<_> = times.collect();
@@ -60,7 +63,7 @@ fn recording_alone_costs_so_much() {
 fn objects_alone_cost_so_much() {
     let mut rows = Vec::new();
     for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
-        for kind in ["closed", "open"] {
+        for kind in ["closed", "open", WITH_ROOM] {
             let row = |(objects, splats)| Row { kind, objects, splats, size_px: [160, 120], rasterizer };
             let some = [(1, 1000), (8, 1000), (64, 1000), (64, 10_000), (64, 30_000), (64, 100_000)];
             rows.extend(some.map(row));
@@ -83,8 +86,10 @@ fn record(rows: Vec<Row>) {
     let renderer = Renderer::new(&device, None).unwrap();
     let mut lines = vec![1_u64; EMPTYING_BYTES / size_of::<u64>()];
     for Row { kind, objects, splats, size_px, rasterizer } in rows {
-        let settings = Settings { size_px, rasterizer, ..Settings::default() };
-        let ball = Object { closed: kind != "open", ..scenes::sphere(splats, DVec3::ZERO) };
+        let tile_memory = if kind == WITH_ROOM { TileMemory::Most(1 << 40) } else { TileMemory::Auto };
+        let settings = Settings { size_px, rasterizer, tile_memory, ..Settings::default() };
+        let is_open = ["open", WITH_ROOM].contains(&kind);
+        let ball = Object { closed: !is_open, ..scenes::sphere(splats, DVec3::ZERO) };
         let levels = kind == "in levels of detail";
         let scene = Scene { objects: vec![ball], levels, ..Scene::default() };
         engine.begin();
