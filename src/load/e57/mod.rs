@@ -133,8 +133,13 @@ fn unread(cloud: &PointCloud) -> impl Iterator<Item = String> {
     })
 }
 
-/// What the crate says, with its cause.
+/// What the crate says, with its cause, which it says itself of some.
 fn one_line(error: &e57::Error) -> String {
-    let cause = std::error::Error::source(error).map(|cause| format!(": {cause}")).unwrap_or_default();
-    format!("{error}{cause}").split_whitespace().collect::<Vec<_>>().join(" ")
+    let mut said = error.to_string();
+    if let Some(cause) = std::error::Error::source(error).map(ToString::to_string)
+        && !said.ends_with(&cause)
+    {
+        said = format!("{said}: {cause}");
+    }
+    said.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -188,6 +188,9 @@ fn counts_beyond_the_file_are_refused_before_memory_is_taken() {
     long[32..40].fill(0xff);
     refuses(&repaired(long), "header: XML of 18446744073709551615 bytes; expected at most ");
     refuses(&whole[..30], "header: the file ends within it; expected 48 bytes");
+    let cut = "Failed to read E57: Failed creating paged CRC reader: File appears to be truncated: \
+               file size 1500 is not a multiple of the page size 1024";
+    assert_eq!(of_bytes("a.e57", &whole[..1500], parse).unwrap_err().to_string(), format!("a.e57: {cut}"));
     let mut wrong = whole.clone();
     wrong[60] ^= 1;
     refuses(&wrong, "");

@@ -13,7 +13,7 @@ use super::{
 use crate::{
     error::Result,
     load::{Input, Loaded, Model, lines::shown, shade},
-    notes::Deed,
+    notes::{Deed, counted},
     scene::{Colors, Points, Viewpoint},
 };
 
@@ -95,8 +95,10 @@ impl Scans {
             return Err((begin, format!("a scan of {columns} by {rows} points; expected {most} at most")));
         }
         let start = all.at;
-        let end = behind_lines(input.bytes, start, count as u64)
-            .map_err(|found| (begin, format!("{count} points are said to follow, but {found} lines do")))?;
+        let end = behind_lines(input.bytes, start, count as u64).map_err(|found| {
+            let lines = counted(found, "lines");
+            (begin, format!("{count} points are said to follow, but the file has {lines} for them"))
+        })?;
         let first = lines(input.bytes, start, limits.line_bytes).next().transpose()?.map(|(_, line)| line);
         let width = first.map_or(4, |line| WRITING.fields(line).count());
         let names = if width >= 7 { "x,y,z,i,r,g,b" } else { "x,y,z,i" };
@@ -227,7 +229,14 @@ mod tests {
         let refuses = |text: &str, expected: &str| {
             assert_eq!(read(text).unwrap_err().to_string(), format!("a.ptx: {expected}"));
         };
-        refuses(&scan(3, "", &ROWS), "line 1: 6 points are said to follow, but 4 lines do");
+        refuses(
+            &scan(3, "", &ROWS),
+            "line 1: 6 points are said to follow, but the file has 4 lines for them",
+        );
+        refuses(
+            &scan(3, "", &ROWS[..1]),
+            "line 1: 6 points are said to follow, but the file has 1 line for them",
+        );
         refuses(&whole.replace("0 0 4 0", "0 0 x 0"), "line 14: 'x' in column 3; expected a number");
         refuses(&format!("{whole}2\n1\n"), "line 15: the file ends within a scan's header of 10 lines");
         refuses(
