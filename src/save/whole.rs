@@ -63,7 +63,14 @@ impl Temporary {
         }
         let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut paths = unfinished();
-        let (file, path) = builder.tempfile_in(folder)?.into_parts();
+        // The error of what makes it names a file that nobody asked for.
+        let (file, path) = match builder.tempfile_in(folder) {
+            Ok(made) => made.into_parts(),
+            Err(e) if matches!(e.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+                return Err(io::Error::new(e.kind(), format!("there is no folder {}", folder.display())));
+            }
+            Err(e) => return Err(e),
+        };
         paths.insert(path.to_path_buf());
         Ok((file, Self(Some(path))))
     }
@@ -213,10 +220,11 @@ mod tests {
     fn folders_devices_and_missing_folders_are_refused() {
         let folder = temp_dir::TempDir::new().unwrap();
         let missing = folder.path().join("missing/a.txt");
-        for (path, problem) in [(folder.path(), "is a directory"), (&missing, "No such file")] {
+        let absent = format!("cannot write: there is no folder {}", folder.path().join("missing").display());
+        for (path, problem) in [(folder.path(), "is a directory"), (&missing, &absent)] {
             let error = write_text(path, "").unwrap_err();
             assert_eq!(error.exit_code(), 1);
-            assert!(error.to_string().contains(problem), "{error}");
+            assert!(error.to_string().ends_with(problem), "{error}");
         }
         #[cfg(unix)]
         assert!(write_text(Path::new("/dev/null"), "").is_err());

@@ -128,8 +128,8 @@ fn outputs_that_cannot_be_written() {
     fs::create_dir(folder.path("is-folder.png")).unwrap();
     for subcommand in ["render", "reference"] {
         for (output, words) in [
-            ("none/a.png", "none/a.png: cannot write: No such file"),
-            ("good.obj/a.png", "good.obj/a.png: cannot write: Not a directory"),
+            ("none/a.png", "none/a.png: cannot write: there is no folder none"),
+            ("good.obj/a.png", "good.obj/a.png: cannot write: there is no folder good.obj"),
             ("is-folder.png", "is-folder.png: cannot write: is a directory"),
             ("a.jpg", "a.jpg: expected a name in .png or .exr"),
             ("a", "a: expected a name in .png or .exr"),
