@@ -86,8 +86,8 @@ fn unlit(filter: Filter) -> Settings {
 }
 
 /// A note on what all settings of [`unlit`] have in common.
-const UNLIT_TEXT: &str = "Epsilon is larger than the board, so that all points in a pixel are blended, none hidden; the \
-    background is blue.";
+const UNLIT_TEXT: &str = "Epsilon is larger than the board, so that all points in a pixel are blended, none hidden; \
+    blue is where no splat is.";
 
 /// The kernel and the low-pass filter of figures 3 and 4.
 const GAUSSIAN_TEXT: &str = "Gaussian kernel, sigma 0.5 radii; low-pass radius sqrt 2 px.";
