@@ -48,7 +48,7 @@ pub struct ReadingArguments {
     pub strict: bool,
 
     /// The columns of rows of numbers, such as x,y,z,-,r,g,b; all: x y z r g b nx ny nz i (intensity) and - [default: as the file tells]
-    #[arg(long, value_name = "LIST", value_parser = str::parse::<Columns>, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LIST", value_parser = parse::columns, allow_hyphen_values = true)]
     columns: Option<Columns>,
 
     /// Scene files and models may name files outside of their folder

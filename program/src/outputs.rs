@@ -145,7 +145,7 @@ pub fn check_converted(input: &Path, output: &Path) -> Result<()> {
     check_name("OUTPUT", output, &["ply", "surfel"])?;
     save::check_place(output)?;
     match input.canonicalize().is_ok_and(|input| input == place_of(output)) {
-        true => Err(Error::option(output.display().to_string(), "is the input")),
+        true => Err(Error::option(output.display().to_string(), "is the input; expected another name")),
         false => Ok(()),
     }
 }

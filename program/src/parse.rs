@@ -2,7 +2,19 @@
 
 use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
-use surfel::scene::{Lod, OptionValue as _};
+use surfel::{
+    Error, ErrorKind,
+    load::Columns,
+    scene::{Lod, OptionValue as _},
+};
+
+/// The columns of rows of numbers. What is said around a fault names the option.
+pub fn columns(word: &str) -> Result<Columns, String> {
+    word.parse().map_err(|error: Error| match error.kind() {
+        ErrorKind::Option { problem, .. } => problem.clone(),
+        _ => error.to_string(),
+    })
+}
 
 /// `1024x768`: width and height in pixels.
 pub fn size(word: &str) -> Result<[u32; 2], String> {

@@ -129,10 +129,10 @@ pub fn upload(headless: &Headless, scene: &Scene, bars: &Bars) -> Result<Prepare
     prepared
 }
 
-/// Why a file of splats or points can't be resampled.
-pub fn not_a_mesh(path: &Path, model: &Model) -> Error {
+/// Why nothing is made of a file of splats or points that is made of meshes, and what it would be made for.
+pub fn not_a_mesh(path: &Path, model: &Model, purpose: &str) -> Error {
     let contents = model.contents();
-    let problem = format!("the file holds {contents}; expected a mesh, to take samples of its triangles");
+    let problem = format!("the file holds {contents}; expected a mesh, {purpose}");
     Error::input(path, "", problem)
 }
 

@@ -81,10 +81,13 @@ impl<T: Taken> FromArgMatches for Given<T> {
         let (mut values, mut given, mut said) = (T::Table::default(), Vec::new(), Vec::new());
         for setting in T::Table::OPTIONS {
             if let Ok(Some(words)) = matches.try_get_many::<String>(setting.name) {
-                let refused = |problem| clap::Error::raw(ErrorKind::ValueValidation, problem);
-                // One word, but of what is given more than once.
-                let word = words.map(String::as_str).collect::<Vec<_>>().join(";");
-                (setting.set)(&mut values, &word).map_err(refused)?;
+                // One word, but of what is given more than once. Each by itself was read before, so that a fault is in their being together.
+                let words: Vec<&str> = words.map(String::as_str).collect();
+                let refused = |problem: String| {
+                    let said = format!("--{}: {} together: {problem}", setting.name, words.join(" and "));
+                    clap::Error::raw(ErrorKind::ValueValidation, said)
+                };
+                (setting.set)(&mut values, &words.join(";")).map_err(refused)?;
                 given.push(setting);
                 if matches.value_source(setting.name) != Some(ValueSource::DefaultValue) {
                     said.push(setting);

@@ -86,7 +86,8 @@ impl OptionValue for ClipPlanes {
         }
         let planes: Option<Vec<[f64; 4]>> = word.split(';').map(numbers).collect();
         planes.map(|planes: Vec<_>| Self(planes.into())).ok_or_else(|| {
-            "expected a,b,c,d, of which a x + b y + c z >= d is seen, such as 0,0,1,0.5, or none".to_owned()
+            "expected a,b,c,d, of which a x + b y + c z >= d is seen, such as 0,0,1,0.5, or none alone"
+                .to_owned()
         })
     }
 

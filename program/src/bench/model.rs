@@ -29,7 +29,7 @@ impl Source {
         let Some(path) = &context.arguments.model else { return Ok(Self::BuiltIn) };
         match load(path, &LoadOptions::default(), &context.bars)?.model {
             Model::Mesh(mesh) => Ok(Self::Mesh(mesh, path.clone())),
-            other => Err(not_a_mesh(path, &other)),
+            other => Err(not_a_mesh(path, &other, "to take samples of its triangles")),
         }
     }
 

@@ -126,7 +126,13 @@ fn open(arguments: &ConvertArguments, bars: &Bars) -> Result<Opened> {
     tell(path, loaded.notes.iter(), bars);
     match loaded.model {
         Model::Mesh(mesh) => Ok(Opened { mesh, notes: loaded.notes, up: loaded.up }),
-        other => Err(not_a_mesh(path, &other)),
+        other => {
+            let purpose = match arguments.resample {
+                Some(_) => "to take samples of its triangles",
+                None => "to simplify its triangles",
+            };
+            Err(not_a_mesh(path, &other, purpose))
+        }
     }
 }
 

@@ -89,6 +89,10 @@ fn what_is_no_plane_is_refused() {
         ),
         (&["disk.ply", "--clip-plane", "0,0,0,1"], "--clip-plane: 0,0,0,1: expected finite numbers"),
         (&["disk.ply", "--clip-plane", "1,2,3"], "expected a,b,c,d"),
+        (
+            &["disk.ply", "--clip-plane", "none", "--clip-plane", "0,0,1,0"],
+            "--clip-plane: none and 0,0,1,0 together: expected a,b,c,d",
+        ),
         (&seven, "--clip-plane: 7 planes with those of --clip-box; expected at most 6"),
         (&["box.toml"], "box.toml: line 1, clip_box: [0, 0, 0, 0, 1, 1]: expected smallest"),
         (&["plane.toml"], "plane.toml: line 1, clip_planes: [[0, 0, 0, 1]]: expected a, b and c"),

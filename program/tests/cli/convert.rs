@@ -91,13 +91,21 @@ fn what_cannot_be_converted_is_refused_in_one_line() {
     let folder = folder();
     convert(&folder, &["octahedron.obj", "splats.ply"]);
     let before = folder.names();
-    let cases: [(&[&str], &str); 9] = [
+    let cases: [(&[&str], &str); 11] = [
         (&["none.obj", "a.ply"], "none.obj: cannot read: No such file"),
         (&["octahedron.obj", "a.obj"], "a.obj: expected a name in .ply"),
         // Found before the work: an input that is not even there is not looked at.
-        (&["none.obj", "none/a.ply"], "none/a.ply: cannot write: No such file"),
-        (&["splats.ply", "./splats.ply"], "./splats.ply: is the input"),
-        (&["splats.ply", "a.ply", "--resample", "9"], "splats.ply: the file holds splats; expected a mesh"),
+        (&["none.obj", "none/a.ply"], "none/a.ply: cannot write: there is no folder none"),
+        (&["splats.ply", "./splats.ply"], "./splats.ply: is the input; expected another name"),
+        (
+            &["splats.ply", "a.ply", "--resample", "9"],
+            "splats.ply: the file holds splats; expected a mesh, to take samples of its triangles",
+        ),
+        (
+            &["splats.ply", "a.ply", "--max-error", "9"],
+            "splats.ply: the file holds splats; expected a mesh, to simplify its triangles",
+        ),
+        (&["a.xyz", "a.ply", "--columns", "x,y"], "'x,y' for '--columns <LIST>': no columns x, y and z"),
         (
             &["octahedron.obj", "a.ply", "--resample", "0"],
             "'0' for '--resample <N>': expected a number of splats, 1 to 4294967295",
