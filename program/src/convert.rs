@@ -27,9 +27,10 @@ use made::Made;
 
 const HELP: &str = "Write a model as a file of splats.
 
-Without --resample these are the splats that `surfel render` draws: a disk at each vertex of a mesh or each point, or the splats of \
-the file. With --resample they are disks at points spread evenly over a mesh's area, with normals and colors interpolated from \
-the vertices, and radii of 1.5 times the mean distance to the 6 nearest neighbors; the same seed gives the same file.
+Without --resample these are the splats that `surfel render` draws: a disk at each vertex of a mesh (an ellipse for \
+each side of an edge there, where the mesh bends by more than 40 degrees or ends) or each point, or the splats of the file. With \
+--resample they are disks at points spread evenly over a mesh's area, with normals and colors interpolated from the vertices, and \
+radii of 1.5 times the mean distance to the 6 nearest neighbors; the same seed gives the same file.
 
 With --splats or --max-error they are ellipses through the corners of the triangles of a simplified mesh, cut off at its ridges: edges \
 over which it bends by 30 degrees or more, and its border. Splats on both sides of a ridge are clipped by one curve. Vertices stay \

@@ -65,7 +65,13 @@ fn check_together(table: &Table<'_>, source: &Source, representation: Representa
     }
     match representation {
         Representation::Splats | Representation::Auto => {
-            table.refuse("triangles", "for a model drawn as splats")
+            let why = match source {
+                Source::BuiltIn { model, .. } if model.has_triangles() => {
+                    "for a model drawn as splats; expected representation = \"mesh\" or \"hybrid\""
+                }
+                _ => "for a model drawn as splats",
+            };
+            table.refuse("triangles", why)
         }
         Representation::Mesh => {
             let why = "for a model drawn as triangles";

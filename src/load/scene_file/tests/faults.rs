@@ -162,7 +162,7 @@ splats = 1.5 => line 3, object 1, splats: 1.5: expected a whole number
 splats = -1 => line 3, object 1, splats: -1: expected a whole number
 splats = 99999999999999999999 => line 3, object 1, splats: 99999999999999999999: expected a whole
 resample = 9 => line 3, object 1, resample: has no meaning for a built-in model; expected splats
-triangles = 9 => line 3, object 1, triangles: has no meaning for a model drawn as splats
+triangles = 9 => line 3, object 1, triangles: has no meaning for a model drawn as splats; expected representation = "mesh" or "hybrid"
 representation = "points" => line 3, object 1, representation: "points": expected 'auto', 'splats', 'mesh' or
 representation = "Mesh" => line 3, object 1, representation: "Mesh": expected 'mesh'
 polygons.longer_than = 1 => line 3, object 1, polygons: has no meaning without representation = "hybrid"
