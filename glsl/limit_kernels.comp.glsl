@@ -52,7 +52,7 @@ void main()
             Splat splat = moved(first, base + k);
             Column column = column_of(splat);
             [[unroll]] for (int row = 0; row < ROWS; row++) {
-                see(splat, column, 1.0, row);
+                see(splat, column, WHOLE, row);
             }
         }
     }
@@ -65,7 +65,7 @@ void main()
         }
         [[unroll]] for (int row = 0; row < ROWS; row++) {
             [[unroll]] for (uint k = 0; k < TILE_BATCH; k++) {
-                add(splats[k], attributes, columns[k], 1.0, row);
+                add(splats[k], attributes, columns[k], WHOLE, row);
             }
         }
     }

@@ -106,15 +106,14 @@ bvec2 cut_by_planes(ImageMap map, PixelBox px)
 }
 
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
-// `cut`: whether planes may cut it.
-uint rect_of(Mapping m, ImageMap map, out bool cut)
+// `cut`: whether planes may cut it. `px`: the pixels that it may cover, where it has a rect.
+uint rect_of(Mapping m, ImageMap map, out PixelBox px, out bool cut)
 {
     cut = false;
     uint large = MAY_BE_LARGE ? RECT_CHUNK + CHUNK : RECT_NONE;
     if (!m.regular) {
         return large;
     }
-    PixelBox px;
     if (!pixel_box(splat_box(m), px)) {
         return RECT_NONE;
     }
@@ -163,7 +162,8 @@ void main()
     }
     ImageMap map = regular_map(m);
     bool cut_by_planes;
-    uint rect = rect_of(m, map, cut_by_planes);
+    PixelBox px;
+    uint rect = rect_of(m, map, px, cut_by_planes);
     rects[place] = rect;
     if (rect >= RECT_CHUNK) {
         return;
@@ -214,7 +214,8 @@ void main()
     if (CLIPS) {
         Curve curves[2];
         clip_in_image(index, m, curves);
-        write_cells(first_word, curves, map, rect, vec2(TILE_WIDTH, TILE_HEIGHT), cut_by_planes);
+        vec4 box_px = vec4(vec2(px.first), vec2(px.last)) + 0.5 - frame.middle_px.xyxy;
+        write_cells(first_word, curves, map, rect, vec2(TILE_WIDTH, TILE_HEIGHT), box_px, cut_by_planes);
         [[unroll]] for (uint i = 0; i < 2; i++) {
             clip_records[first_vector + 3 * i] = curves[i].c;
             clip_records[first_vector + 3 * i + 1] = curves[i].a;

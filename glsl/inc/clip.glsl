@@ -38,20 +38,15 @@ bool is_told(vec4 c, uint what)
     return (uint(c.w) & what) != 0;
 }
 
-// Of what a curve leaves, with the direction in which it keeps (tile/clip.glsl), the part.
-float part_of(float kept)
-{
-    return kept - 2.0 * floor(0.5 * kept);
-}
+const float BY_PLANE = 4.0; // added to the direction's number where a plane decides what is left, not a curve
 
-const float BY_PLANE = 8.0; // added where a plane decides what is left, not a curve
+// What curves and planes leave of a splat in a pixel: the part, from 0 to 1, and COVERAGE_EDGES: the number of the direction in which what decides it keeps, of a plane and BY_PLANE.
+struct Kept {
+    float part;
+    float toward;
+};
 
-// The direction's number.
-float toward_of(float kept)
-{
-    float number = floor(0.5 * kept);
-    return number >= 0.5 * BY_PLANE ? number - 0.5 * BY_PLANE : number;
-}
+const Kept WHOLE = Kept(1.0, 0.0);
 
 float at(vec4 line, vec2 px)
 {
@@ -86,4 +81,13 @@ float kept_side(Curve curve, vec2 px)
     // s / (1 + s)
     float bulge = root > 0.0 ? root / (sum + root) : 0.0;
     return c + (turn_of(curve) * sum - c) * bulge;
+}
+
+// What has the sign of that, without a root or a division; less where roundings may decide, so that what is above 0 here is left there.
+float kept_sign(Curve curve, vec2 px)
+{
+    float c = at(curve.c, px);
+    float w2 = FORMULA(FORMULA_CLIP_CURVE, curve.a.w);
+    float root2 = (w2 * max(at(curve.a, px), 0.0)) * (w2 * max(at(curve.b, px), 0.0)); // a product that is finite where w is 1e19 and more
+    return c * abs(c) + turn_of(curve) * root2 - 1e-5 * (c * c + root2);
 }

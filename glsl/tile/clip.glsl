@@ -1,32 +1,52 @@
 // What clip curves and planes leave of a splat in the pixels of an invocation (inc/clip.glsl, inc/planes.glsl).
 
-// The part of a pixel that a curve leaves, from 0 to 1; COVERAGE_EDGES: plus twice the number of the direction in which it keeps, and f goes
-// from half a ramp behind the pixel to half a ramp before it.
-float kept_by(Curve curve, vec2 px)
+// COVERAGE_EDGES: f goes from half a ramp behind the pixel to half a ramp before it.
+vec2 half_ramp_of(Curve curve)
+{
+    float steepness2 = dot(curve.c.xy, curve.c.xy);
+    return steepness2 > 0.0 ? curve.c.xy / steepness2 : vec2(0.0);
+}
+
+// The part of a pixel that a curve leaves.
+float part_left(Curve curve, vec2 px)
 {
     if (!COVERAGE_EDGES) {
         return keeps(curve, px) ? 1.0 : 0.0;
     }
-    float steepness2 = dot(curve.c.xy, curve.c.xy);
-    vec2 half_ramp = steepness2 > 0.0 ? curve.c.xy / steepness2 : vec2(0.0);
+    vec2 half_ramp = half_ramp_of(curve);
     float behind = kept_side(curve, px - half_ramp);
     float before = kept_side(curve, px + half_ramp);
     float above = max(behind, 0.0) + max(before, 0.0);
     float all = abs(behind) + abs(before);
     // What is left whole is so to the last bit, which a GPU's division does not promise: a number by itself may be less than 1.
     bool is_cut = all > 0.0 && (behind < 0.0 || before < 0.0);
-    return (is_cut ? above / all : 1.0) + 2.0 * float(uint(curve.c.w) / CURVE_TOWARD);
+    return is_cut ? above / all : 1.0;
 }
 
-// What the curve leaves, where it is less than what is left, or of a second one, which both have to remove, more.
-void cut_by(Curve curve, inout float kept[ROWS])
+// 1 where that is more than 0, else 0: by signs alone, without a root or a division.
+float whether_left(Curve curve, vec2 px)
+{
+    if (!COVERAGE_EDGES) {
+        return keeps(curve, px) ? 1.0 : 0.0;
+    }
+    vec2 half_ramp = half_ramp_of(curve);
+    float behind = kept_sign(curve, px - half_ramp);
+    float before = kept_sign(curve, px + half_ramp);
+    return max(behind, before) > 0.0 || !(min(behind, before) < 0.0) ? 1.0 : 0.0;
+}
+
+// What the curve leaves, where it is less than what is left, or of a second one, which both have to remove, more. `seen`: only whether.
+void cut_by(Curve curve, bool seen, inout Kept kept[ROWS])
 {
     bool is = is_told(curve.c, CURVE_IS);
     bool both = is_told(curve.c, CURVE_BOTH);
+    float toward = float(uint(curve.c.w) / CURVE_TOWARD);
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-        float part = kept_by(curve, top_px + vec2(0.0, float(first_row + row)));
-        bool decides = is && (both ? part_of(part) > part_of(kept[row]) : part_of(part) < part_of(kept[row]));
-        kept[row] = decides ? part : kept[row];
+        vec2 px = top_px + vec2(0.0, float(first_row + row));
+        float part = seen ? whether_left(curve, px) : part_left(curve, px);
+        bool decides = is && (both ? part > kept[row].part : part < kept[row].part);
+        kept[row].part = decides ? part : kept[row].part;
+        kept[row].toward = decides ? toward : kept[row].toward;
     }
 }
 
@@ -36,7 +56,7 @@ const float HARD = 1e30; // of a ramp where a plane does not cross the splat's, 
 
 // What planes leave, where it is less than what curves do. COVERAGE_EDGES: the surface goes on beyond the splat as the plane cuts it, and what is low-passed is
 // its edge: a ramp across the cut, with the slope of the normal distribution, as that of a curve of a large splat.
-void cut_by_planes(Splat splat, inout float kept[ROWS])
+void cut_by_planes(Splat splat, inout Kept kept[ROWS])
 {
     vec2 d = top_px - splat.x0_px;
     vec2 w_per_px = depth_of(splat) * splat.w;
@@ -55,7 +75,7 @@ void cut_by_planes(Splat splat, inout float kept[ROWS])
         // In half a ramp behind the pixel nothing is left, in half a ramp before it all. Linear along the column.
         float at_top = per_ramp * inside_px(plane, top_px, w);
         float per_row = per_ramp * per_px.y;
-        float toward_plane = 2.0 * float(quarter_of(per_px)) + BY_PLANE;
+        float toward_plane = float(quarter_of(per_px)) + BY_PLANE;
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             float inside = at_top + per_row * float(first_row + row);
             toward[row] = inside < least[row] ? toward_plane : toward[row];
@@ -64,12 +84,14 @@ void cut_by_planes(Splat splat, inout float kept[ROWS])
     }
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         float part = COVERAGE_EDGES ? clamp(0.5 + least[row], 0.0, 1.0) : least[row] < 0.0 ? 0.0 : 1.0;
-        kept[row] = part < part_of(kept[row]) ? part + toward[row] : kept[row];
+        bool decides = part < kept[row].part;
+        kept[row].part = decides ? part : kept[row].part;
+        kept[row].toward = decides ? toward[row] : kept[row].toward;
     }
 }
 
 // What curves cut off `at_once` splats, which `own` of invocations from `place` on have loaded.
-void cut_by_curves(uint at_once, OwnCurves own, Splat splats[AT_ONCE], uint place, inout float kept[AT_ONCE][ROWS])
+void cut_by_curves(uint at_once, OwnCurves own, Splat splats[AT_ONCE], uint place, bool seen, inout Kept kept[AT_ONCE][ROWS])
 {
     uint most = most_curves(own, splats, at_once, place);
     if (most == 0) {
@@ -78,22 +100,22 @@ void cut_by_curves(uint at_once, OwnCurves own, Splat splats[AT_ONCE], uint plac
     uint number = 0;
     do { // a CPU driver runs a body once more than a condition before it says
         [[unroll]] for (uint k = 0; k < at_once; k++) {
-            cut_by(curve_of(own, splats, number, place + k), kept[k]);
+            cut_by(curve_of(own, splats, number, place + k), seen, kept[k]);
         }
         number++;
     } while (number < most);
 }
 
-// What curves and planes leave of splats if they are `clipped`; 1 where nothing is cut off.
-void find_kept(bool clipped, uint at_once, OwnCurves own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
+// What curves and planes leave of splats if they are `clipped`. `seen`: only whether, by curves.
+void find_kept(bool clipped, uint at_once, OwnCurves own, Splat splats[AT_ONCE], uint place, bool seen, out Kept kept[AT_ONCE][ROWS])
 {
     [[unroll]] for (uint k = 0; k < at_once; k++) {
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-            kept[k][row] = 1.0;
+            kept[k][row] = WHOLE;
         }
     }
     if (CLIPS && clipped) {
-        cut_by_curves(at_once, own, splats, place, kept);
+        cut_by_curves(at_once, own, splats, place, seen, kept);
     }
     if (CUT_BY_PLANES && clipped) {
         [[unroll]] for (uint k = 0; k < at_once; k++) {

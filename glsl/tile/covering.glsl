@@ -43,7 +43,7 @@ void begin_covering(int row)
 }
 
 // `weight`: over the overlap, as if nothing were cut off. `falls`: by how much it falls a pixel. `part`: what the splat covers by itself; of one `at_border`, the argument of Phi. `own_ellipse`: and as no filter has widened it. `kept`: what curves leave (tile/clip.glsl).
-void cover(float weight, vec2 falls, float part, bool at_border, float own_ellipse, float kept, int row)
+void cover(float weight, vec2 falls, float part, bool at_border, float own_ellipse, Kept kept, int row)
 {
     float left = REACHES && at_border ? 1.0 : 1.0 - clamp(part, 0.0, 1.0);
     float of_border = REACHES && at_border ? part : NO_BORDER;
@@ -59,12 +59,11 @@ void cover(float weight, vec2 falls, float part, bool at_border, float own_ellip
         summed[row] += weight;
     }
     if (CUTS) {
-        float part_kept = part_of(kept);
-        float whole = clamp(CUT_BELOW * part_kept - (CUT_BELOW - 1.0), 0.0, 1.0);
+        float whole = clamp(CUT_BELOW * kept.part - (CUT_BELOW - 1.0), 0.0, 1.0);
         uncut[row] = vec3(uncut[row].x + whole * weight, uncut[row].y * mix(1.0, left, whole), whole > 0.0 ? max(uncut[row].z, of_border) : uncut[row].z);
-        vec4 toward = mix(vec4(0.0), vec4(weight - whole * weight), equal(vec4(toward_of(kept)), vec4(0.0, 1.0, 2.0, 3.0)));
+        vec4 toward = mix(vec4(0.0), vec4(weight - whole * weight), equal(vec4(kept.toward < BY_PLANE ? kept.toward : kept.toward - BY_PLANE), vec4(0.0, 1.0, 2.0, 3.0)));
         cut_toward[row] += toward;
-        kept_toward[row] += part_kept * toward;
+        kept_toward[row] += kept.part * toward;
     }
 }
 

@@ -19,9 +19,9 @@ void begin_creases(int row)
 }
 
 // Planes that cut all that is seen have nothing on their other side.
-bool is_beyond(float kept)
+bool is_beyond(Kept kept)
 {
-    return kept < BY_PLANE && part_of(kept) < 0.5;
+    return kept.toward < BY_PLANE && kept.part < 0.5;
 }
 
 void note_kept(bool beyond, float part, int row)

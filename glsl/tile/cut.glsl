@@ -43,7 +43,7 @@ bvec2 kept_and_cut(Curve curves[2], Cell cell)
 }
 
 // Writes a word for each row of cells: bits of those where something of the splat is left, then of those that curves cut; or all, `cut_by_planes`.
-void write_cells(uint first_word, Curve curves[2], ImageMap map, uint rect, vec2 tile_px, bool cut_by_planes)
+void write_cells(uint first_word, Curve curves[2], ImageMap map, uint rect, vec2 tile_px, vec4 box_px, bool cut_by_planes)
 {
     Ellipse ellipse = ellipse_of(map);
     uvec2 first = first_of(rect);
@@ -53,7 +53,10 @@ void write_cells(uint first_word, Curve curves[2], ImageMap map, uint rect, vec2
     uvec2 at = uvec2(0);
     uint bits = 0;
     do {
-        Cell cell = Cell(vec2(first + (at << shift)) * tile_px + 0.5 * size_px - frame.middle_px, 0.5 * size_px - 0.5);
+        vec2 top_px = vec2(first + (at << shift)) * tile_px - frame.middle_px;
+        vec2 first_px = max(top_px + 0.5, box_px.xy);
+        vec2 last_px = min(top_px + size_px - 0.5, box_px.zw);
+        Cell cell = Cell(0.5 * (first_px + last_px), max(0.5 * (last_px - first_px), 0.0));
         bvec2 is = kept_and_cut(curves, cell);
         bits |= is.x && !is_outside(ellipse, cell) ? 1u << at.x : 0u;
         bits |= is.y || cut_by_planes ? 1u << CELLS_ALONG + at.x : 0u;

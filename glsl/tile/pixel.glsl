@@ -95,12 +95,12 @@ vec3 uvw_of(Column column, int row)
 
 // Whether the splat covers the pixel, behind the layer before. A regular splat lies wholly beyond the near plane, but an affine map
 // reaches further than the splat. `kept`: what clip curves and planes leave of it.
-bool covers(vec3 uvw, float depth, bool away, float kept, int row)
+bool covers(vec3 uvw, float depth, bool away, Kept kept, int row)
 {
     float limit = FORMULA(FORMULA_COVERAGE, COVERAGE_R2);
     bool inside = dot(uvw.xy, uvw.xy) <= (AFFINE ? limit : limit * (uvw.z * uvw.z));
     bool beyond_near = !AFFINE || depth > 0.0 && depth <= FORMULA(FORMULA_NEAR_CUT, 1.0);
-    return inside && beyond_near && (!CUTS || part_of(kept) > 0.0) && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
+    return inside && beyond_near && (!CUTS || kept.part > 0.0) && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
 }
 
 // No polygon is there.
@@ -135,7 +135,7 @@ float r2_of(vec3 uvw)
 }
 
 // The nearest depth, shifted by epsilon.
-void see(Splat splat, Column column, float kept, int row)
+void see(Splat splat, Column column, Kept kept, int row)
 {
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
@@ -152,9 +152,9 @@ const float LEAST_PRIORITY = 1e-18; // what covers has a weight
 
 // Where curves of a ridge meet, each of its sides is shaded as it is: the mean of their normals would be that of neither, and shine. So the side
 // that has more of the pixel has next to all of its color, unless both are summed apart (tile/creases.glsl).
-float priority(float kept)
+float priority(Kept kept)
 {
-    float part = part_of(kept);
+    float part = kept.part;
     part *= part;
     part *= part;
     part *= part;
@@ -162,7 +162,7 @@ float priority(float kept)
 }
 
 // Adds what a splat is at a pixel.
-void add(Splat splat, SplatAttributes attributes, Column column, float kept, int row)
+void add(Splat splat, SplatAttributes attributes, Column column, Kept kept, int row)
 {
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
@@ -196,11 +196,11 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
         covering = all_cover ? covering && is_behind_polygons(depth, column.toward, row) : inside;
         float covers = covering ? shared_weight : 0.0;
         float own_ellipse = OUTLINED ? part_of_outline(attributes.outline, splat.uv, AFFINE ? vec3(uvw.xy, 1.0) : uvw) : 0.0;
-        cover(covers, covers * kernel_decline(r2) * inverse_w2 * change, covering ? part : 0.0, covering && at_border, covering ? own_ellipse : 0.0, covering ? kept : 1.0, row);
+        cover(covers, covers * kernel_decline(r2) * inverse_w2 * change, covering ? part : 0.0, covering && at_border, covering ? own_ellipse : 0.0, Kept(covering ? kept.part : 1.0, kept.toward), row);
     }
     bool beyond = CREASES && is_beyond(kept);
     if (CREASES) {
-        note_kept(beyond, inside ? part_of(kept) : 0.0, row);
+        note_kept(beyond, inside ? kept.part : 0.0, row);
     }
     vec3 color = attributes.color;
     if (OUTLINES) {

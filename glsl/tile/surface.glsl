@@ -73,12 +73,12 @@ void see_batch(Splat own, OwnCurves own_curves, uint batch, uint place, bool cli
         [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
             splats[k] = broadcast(own, place + first + k);
         }
-        float kept[AT_ONCE][ROWS];
-        find_kept(clipped, min(AT_ONCE, batch), own_curves, splats, place + first, kept);
+        Kept kept[AT_ONCE][ROWS];
+        find_kept(clipped, min(AT_ONCE, batch), own_curves, splats, place + first, true, kept);
         [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
             Column column = column_of(splats[k]);
             [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                see(splats[k], column, clipped ? kept[k][row] : 1.0, row);
+                see(splats[k], column, kept[k][row], row);
             }
         }
     }
@@ -116,11 +116,11 @@ void sum_batch(Splat own, SplatAttributes own_attributes, OwnCurves own_curves, 
             attributes[k] = broadcast(own_attributes, place + first + k);
             columns[k] = column_of(splats[k]);
         }
-        float kept[AT_ONCE][ROWS];
-        find_kept(clipped, min(AT_ONCE, batch), own_curves, splats, place + first, kept);
+        Kept kept[AT_ONCE][ROWS];
+        find_kept(clipped, min(AT_ONCE, batch), own_curves, splats, place + first, false, kept);
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             [[unroll]] for (uint k = 0; k < min(AT_ONCE, batch); k++) {
-                add(splats[k], attributes[k], columns[k], clipped ? kept[k][row] : 1.0, row);
+                add(splats[k], attributes[k], columns[k], kept[k][row], row);
             }
         }
     }
