@@ -10,7 +10,7 @@ layout(set = 0, binding = BIND_STARTS, std430) writeonly buffer Starts { uint st
 void main()
 {
     uint bin = GROUP_NUMBER * TOTAL_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (bin >= push.bin_count) {
+    if (bin >= push.count_bins) {
         return;
     }
     uint before = 0;
@@ -26,5 +26,12 @@ void main()
             before += own[i];
         }
     }
-    starts[bin] = before;
+    if (!counts_halves()) {
+        starts[bin] = before;
+    } else if (bin < push.tile_count) {
+        starts[2 * bin] = before & HALF_COUNT;
+        starts[2 * bin + 1] = before >> HALF_COUNT_BITS;
+    } else {
+        starts[bin + push.tile_count] = before;
+    }
 }

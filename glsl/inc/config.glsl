@@ -213,6 +213,7 @@
 #define SEGMENT_BLOCK 32      // Records that are dealt out to a segment at a time.
 #define BIN_GROUP_SIZE 8      // Invocations of a workgroup of which each walks over a segment.
 #define TOTAL_GROUP_SIZE 64   // Those of one that adds up what was counted.
+#define HALF_COUNT_BITS 16     // Of a word that counts both lists of a tile, those of each.
 #define PROJECT_GROUP_SIZE 64 // Invocations of a workgroup that projects splats.
 #define RECT_SIDE_BITS 16     // Bits of a tile rect along a side of the image: the first tile's place, then how many tiles more.
 #define MOST_PLACE_BITS 13    // Of these, bits of a place at most; the rest marks small rects and their corners.

@@ -31,6 +31,7 @@ struct TileConstants {
     uint blends_rest;    // 1: and all that is left
     uint step;           // of a layer in parts
     uint ends;           // 1: the last part
+    uint count_bins;     // bins that walks count in: as bin_count, or where a word holds the counts of both lists of a tile, one a tile
     float polygon_reach; // by how much splats are shifted toward polygons at most, for each pixel of their image's size
 };
 layout(push_constant, std430) uniform Push { TileConstants push; };
@@ -54,9 +55,17 @@ uint place_of_tile(bool clipped, uint number)
     return clipped ? push.tile_count - 1 - number : number;
 }
 
+// PARTED: no list is longer than HALF_COUNT, and a word counts both lists of a tile, the second one in its upper half: to add up counts that are 0 is most of what lists of few splats take.
+bool counts_halves()
+{
+    return push.count_bins < push.bin_count;
+}
+
+const uint HALF_COUNT = (1u << HALF_COUNT_BITS) - 1;
+
 // Counts of BIN_GROUP_SIZE walks lie beside each other: they go over the same region at a time, and bins of theirs
 // in columns apart would fall on the same lines of a cache.
 uint place_of_count(uint walk, uint bin)
 {
-    return (walk / BIN_GROUP_SIZE * push.bin_count + bin) * BIN_GROUP_SIZE + walk % BIN_GROUP_SIZE;
+    return (walk / BIN_GROUP_SIZE * push.count_bins + bin) * BIN_GROUP_SIZE + walk % BIN_GROUP_SIZE;
 }

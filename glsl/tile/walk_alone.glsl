@@ -5,9 +5,13 @@ layout(local_size_x = BIN_GROUP_SIZE) in;
 
 void visit(uint segment, uint record, uint bin)
 {
-    uint place = place_of_count(segment, bin);
-    uint before = counts[place];
-    counts[place] = before + 1;
+    bool halves = PARTED && counts_halves();
+    bool of_tile = bin < FIRST_CHUNK_BIN;
+    uint place = place_of_count(segment, !halves ? bin : of_tile ? bin / TILE_BINS : bin - push.tile_count);
+    uint shift = halves && of_tile ? bin % TILE_BINS * HALF_COUNT_BITS : 0;
+    uint count = counts[place];
+    counts[place] = count + (1u << shift);
+    uint before = halves ? count >> shift & HALF_COUNT : count;
 #if defined(LISTS)
     list(record, bin, before);
 #endif

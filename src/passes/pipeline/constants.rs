@@ -191,6 +191,8 @@ pub struct TileConstants {
     pub step: u32,
     /// 1: the last part.
     pub ends: u32,
+    /// Bins that walks count in.
+    pub count_bins: u32,
     /// By how much splats are shifted toward polygons at most, for each pixel of their image's size, where edges are covered in part.
     pub polygon_reach: f32,
 }

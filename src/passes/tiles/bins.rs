@@ -76,7 +76,7 @@ pub(crate) fn list<'a>(
     );
     finish(pass, inputs, (plan, count), |pass| walk(pass, plan))?;
 
-    let groups = plan.bin_count().div_ceil(TOTAL_GROUP_SIZE);
+    let groups = plan.count_bins().div_ceil(TOTAL_GROUP_SIZE);
     let pass = Pass::new(graph, inputs.source, name("total"), WHY)
         .write(at(BIND_COUNTS), &mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
         .write(at(BIND_STARTS), &mut tiles.starts, write, Start::Discard);

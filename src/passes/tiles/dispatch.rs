@@ -150,6 +150,7 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
         first_tile: plan.first_tile(),
         tile_count: plan.tile_count,
         bin_count: plan.bin_count(),
+        count_bins: plan.count_bins(),
         record_count: plan.record_count,
         segments: plan.segments,
         segment_length: plan.segment_length,

@@ -49,6 +49,20 @@ fn workgroups_walk_over_pieces_of_segments_as_far_as_memory_allows() {
 }
 
 #[test]
+fn both_lists_of_a_tile_are_counted_in_one_word_where_each_has_room_in_half_of_it() {
+    let counts = |count, of, planes| {
+        let plan = plan_of(&[(count, 3.0)], [1024, 1024], of).unwrap();
+        let plan = plan.cut_by(false, planes, &limits()).unwrap();
+        assert_eq!(plan.count_bytes(), u64::from(plan.count_bins() * plan.walks()) * 4);
+        (plan.count_bins() - plan.chunk_count) / plan.tile_count
+    };
+    assert_eq!(counts(65_535, Invocations::Columns, true), 1);
+    assert_eq!(counts(65_536, Invocations::Columns, true), 2);
+    assert_eq!(counts(100, Invocations::Pixels, true), 2);
+    assert_eq!(counts(100, Invocations::Columns, false), 1);
+}
+
+#[test]
 fn splats_that_are_small_for_sure_leave_nothing_to_the_graphics_pipeline() {
     let small = plan(&[(154_000, 40.0)], [1024, 1024]).unwrap();
     assert!(!small.may_be_large && small.most_tiles == 36, "{small:?}");

@@ -48,6 +48,14 @@ impl TilePlan {
         self.segments * self.pieces
     }
 
+    /// Bins that walks count in: two lists of a tile are one where each has room in half a word, and no invocations add to it at once.
+    pub(crate) fn count_bins(&self) -> u32 {
+        let in_halves = self.parted_by() != 0
+            && !self.invocations.walk_together()
+            && self.record_count < 1 << HALF_COUNT_BITS;
+        if in_halves { self.tile_count + self.chunk_count } else { self.bin_count() }
+    }
+
     /// Bytes of what each walk counts in bins.
     pub(crate) fn count_bytes(&self) -> u64 {
         self.bytes_of_counts(self.pieces)
@@ -55,6 +63,6 @@ impl TilePlan {
 
     /// The same where segments have so many pieces.
     pub(super) fn bytes_of_counts(&self, pieces: u32) -> u64 {
-        u64::from(self.segments) * u64::from(pieces) * u64::from(self.bin_count()) * 4
+        u64::from(self.segments) * u64::from(pieces) * u64::from(self.count_bins()) * 4
     }
 }
