@@ -13,13 +13,9 @@ impl Splats {
     /// The box around what is left of a splat: of a surface that clip curves cut somewhere; else around the ball of its major radius.
     pub(super) fn bounds_of(&self, i: usize) -> Bounds {
         let center = self.positions[i];
-        let Shapes::Ellipses { s, t } = (match self.clips.is_empty() {
-            true => return Bounds::of_ball(center, self.major_radius(i)),
-            false => &self.shapes,
-        }) else {
+        let Some([s, t]) = self.axes_of_cut(i) else {
             return Bounds::of_ball(center, self.major_radius(i));
         };
-        let [s, t] = [s[i].as_dvec3(), t[i].as_dvec3()];
         let of_curve = |curve: &ClipCurve| {
             let places = left_of(curve).map(|at| center + at.x * s + at.y * t);
             places.map(|at| Bounds { min: at, max: at }).reduce(Bounds::union)
@@ -38,14 +34,34 @@ impl Splats {
         left.filter(|left| left.min.cmple(left.max).all()).unwrap_or(whole)
     }
 
-    /// How far what is left of a splat is from a place, at the most.
+    /// How far what is left of a splat is from a place, at the most; of one that nothing cuts no more than its center and its major radius together.
     pub(super) fn reach_from(&self, i: usize, place: DVec3) -> f64 {
-        match self.clips.is_empty() {
-            true => self.positions[i].distance(place) + self.major_radius(i),
-            false => {
+        let center = self.positions[i];
+        let whole = center.distance(place) + self.major_radius(i);
+        let Some([s, t]) = self.axes_of_cut(i) else { return whole };
+        let of_curve = |curve: &ClipCurve| {
+            let places = left_of(curve).map(|at| center + at.x * s + at.y * t);
+            places.map(|at| at.distance(place)).fold(0.0, f64::max)
+        };
+        let left = match self.clips.get(i) {
+            Clip::None => whole,
+            Clip::One(curve) => of_curve(&curve),
+            // The corners of the box that both leave are another bound, which is less where each leaves much.
+            Clip::Either(first, second) => {
                 let Bounds { min, max } = self.bounds_of(i);
-                (min - place).abs().max((max - place).abs()).length()
+                let corner = (min - place).abs().max((max - place).abs()).length();
+                of_curve(&first).min(of_curve(&second)).min(corner)
             }
+            Clip::Both(first, second) => of_curve(&first).max(of_curve(&second)),
+        };
+        left.min(whole)
+    }
+
+    /// The axes of an ellipse of a surface that clip curves cut somewhere.
+    fn axes_of_cut(&self, i: usize) -> Option<[DVec3; 2]> {
+        match &self.shapes {
+            Shapes::Ellipses { s, t } if !self.clips.is_empty() => Some([s[i].as_dvec3(), t[i].as_dvec3()]),
+            _ => None,
         }
     }
 }
@@ -94,8 +110,24 @@ mod tests {
             let (from, to) = (DVec3::new(left, bottom, 1.0), DVec3::new(right, top, 1.0));
             assert!(min.distance(from) < 2e-3 && max.distance(to) < 2e-3, "{i}: {min} {max}");
             let reach = splats.reach_from(i, DVec3::ZERO);
-            assert!((reach - from.abs().max(to.abs()).length()).abs() < 2e-3, "{i}: {reach}");
+            // The end of the longer axis, at (±2, 0, 1); of what nothing cuts that is not looked for.
+            let expected = if i == 0 { 3.0 } else { 5.0_f64.sqrt() };
+            assert!((reach - expected).abs() < 2e-3, "{i}: {reach}");
         }
+    }
+
+    /// A sliver between two corners of its box, as the faces of a cone are, from a third one, from which the fourth is farther than both.
+    #[test]
+    fn slivers_reach_no_farther_than_their_ends() {
+        let half = ClipCurve::line(-std::f32::consts::FRAC_PI_2, std::f32::consts::FRAC_PI_2);
+        let shapes =
+            Shapes::Ellipses { s: vec![Vec3::new(1.0, 1.0, 0.0)], t: vec![Vec3::new(-0.05, 0.05, 0.0)] };
+        let splats = Splats {
+            clips: Clips::of(vec![Clip::One(half)]),
+            ..Splats::new(vec![DVec3::ZERO], shapes, Colors::unknown())
+        };
+        let reach = splats.reach_from(0, DVec3::new(1.0, -1.0, 0.0));
+        assert!((2.0..2.01).contains(&reach), "{reach}");
     }
 
     /// A curve that bulges beyond the rim cuts nothing there, and one without an arc nothing at all.

@@ -72,7 +72,7 @@ fn a_node_is_the_larger_the_more_what_is_below_differs() {
     close(of_bend(0.5 * TAU / 4.0), 2.0);
     // Grays 0.5 ± d: roots differ from their mean by d / 2 √0.5 each, of three components that are alike.
     let of_grays = |d: f32| {
-        let gray = move |i: usize| if i % 2 == 0 { 0.5 - d } else { 0.5 + d };
+        let gray = move |i: usize| if i.is_multiple_of(2) { 0.5 - d } else { 0.5 + d };
         root_factor(&square(up, move |i| [gray(i), gray(i), gray(i), 1.0]))
     };
     let of_roots = |d: f64| 3.0 * d * d / (4.0 * 1.5);
