@@ -160,7 +160,7 @@ fn levels_of_detail_are_picked_as_they_are_drawn() {
     let camera = Camera::fit(&scene.ball().unwrap(), settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
     let hard = Hard { name: "levels", scene: scene.clone(), camera, settings };
     for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective, Rasterizer::Quad] {
-        for lod in [4.0, 0.5] {
+        for lod in [8.0, 0.5] {
             let hard =
                 with(&hard, |settings| (settings.rasterizer, settings.lod) = (rasterizer, Lod::Px(lod)));
             let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
