@@ -95,11 +95,13 @@ pub fn i1(context: &mut FigureContext<'_>) -> Result<Sheet> {
 pub fn i9(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let part = Part::open(context.model, context.bars)?;
     let settings = settings(context);
-    let curves = made(context, &part, SPLATS, Clipping::Shared)?;
-    let (camera, _) = camera_covering(context.headless, (&curves.scene, &curves.prepared), &settings, SHARE)?;
     let (mesh, report) = creased_mesh(part.mesh.clone());
     let polygons = MeshObject { name: part.name.clone(), mesh, closed: report.closed };
-    let polygons = context.prepare(&Scene { meshes: vec![polygons], ..Scene::default() })?;
+    let scene = Scene { meshes: vec![polygons], ..Scene::default() };
+    let polygons = context.prepare(&scene)?;
+    // Of the mesh, whatever splats reach.
+    let (camera, _) = camera_covering(context.headless, (&scene, &polygons), &settings, SHARE)?;
+    let curves = made(context, &part, SPLATS, Clipping::Shared)?;
     let lines = made(context, &part, SPLATS, Clipping::Lines)?;
     let whole = made(context, &part, SPLATS, Clipping::None)?;
     let count = |made: &Made| format!("{} splats", made.scene.splat_count());
