@@ -21,10 +21,7 @@ use crate::{
 /// The part of a budget that is given out. Of 74 pairs of a view and a budget 98.6 to 99.8% was filled (`benches/README.md`).
 const SHARE: f64 = 0.992;
 
-/// What a group counts at most: it has eight splats at most in our own hierarchies.
-const MOST_OF_GROUP: u8 = 250;
-
-/// Parts of a splat that are counted.
+/// Parts of a splat that are counted: of as many as a group may have there is room in 16 bits.
 const PARTS: i16 = 64;
 
 /// What a device finds in f32 of a size may be less than this file's f64 by so much of it.
@@ -182,7 +179,7 @@ impl View {
 
     /// How many [`PARTS`] of a group a device would draw.
     fn seen(&self, ball: &ErrorBall, group: &Group) -> i16 {
-        let count = PARTS * i16::from(group.count.min(MOST_OF_GROUP));
+        let count = PARTS * i16::from(group.count);
         if count == 0 || ball.spread.is_infinite() {
             return count;
         }
@@ -197,15 +194,18 @@ impl View {
 
     /// Which part of a group faces the eye.
     fn facing(&self, place: DVec3, group: &Group) -> f64 {
-        let ray =
-            if self.is_orthographic { self.forward } else { (place - self.view.eye).normalize_or_zero() };
-        let mean = DVec3::from(group.normal.map(f64::from)) / 127.0;
+        let ray = if self.is_orthographic { self.forward } else { place - self.view.eye };
+        // In 127ths.
+        let mean = DVec3::from(group.normal.map(f64::from));
         let toward = -ray.dot(mean);
-        // Of one alone, whose mean is as long as it is rounded.
-        let square = if group.count > 1 { (1.0 - mean.length_squared()).max(0.0) } else { 0.0 };
+        let is_facing = f64::from(u8::from(toward >= 0.0));
+        if group.count == 1 {
+            return is_facing;
+        }
         // A uniform distribution is as wide to each side as this.
-        let half = (1.5 * square).sqrt();
-        if toward.abs() < half { 0.5 + 0.5 * toward / half } else { f64::from(u8::from(toward >= 0.0)) }
+        let square = (127.0_f64.powi(2) - mean.length_squared()).max(0.0);
+        let half = (1.5 * square * ray.length_squared()).sqrt();
+        if toward.abs() < half { 0.5 + 0.5 * toward / half } else { is_facing }
     }
 
     /// As a device finds it of splats (`glsl/mark_visible.comp.glsl`).
