@@ -129,6 +129,12 @@ impl Drop for Screen {
 }
 
 impl Shot {
+    /// Its top left part.
+    pub fn corner(&self, size: [u32; 2]) -> Self {
+        let rows = self.pixels.chunks_exact(self.size[0] as usize).take(size[1] as usize);
+        Self { size, pixels: rows.flat_map(|row| &row[..size[0] as usize]).copied().collect() }
+    }
+
     /// In how many pixels a color differs by more than one step of 8 bits.
     pub fn differs_from(&self, other: &Self) -> usize {
         assert_eq!(self.size, other.size);
