@@ -20,6 +20,9 @@ layout(constant_id = SPEC_SEVERAL) const bool SEVERAL = false;
 layout(set = 0, binding = BIND_NORMALS) writeonly uniform image2D peeled; // depth and weight of the layer before, and depth of the last one that faces away
 layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D layers_before;
 layout(set = 0, binding = BIND_NORMALS_BEFORE) uniform texture2D peeled_before;
+// COVERAGE_EDGES: and what ended (tile/layers.glsl).
+layout(set = 0, binding = BIND_VISIBLE_DEPTH) writeonly uniform image2D ends;
+layout(set = 0, binding = BIND_VISIBLE_BEFORE) uniform texture2D ends_before;
 
 void main()
 {
@@ -35,6 +38,9 @@ void main()
             before[row] = texelFetch(peeled_before, pixel, 0).r;
             weight_before[row] = texelFetch(peeled_before, pixel, 0).g;
             before_away[row] = texelFetch(peeled_before, pixel, 0).b;
+            if (COVERAGE_EDGES) {
+                load_ended(texelFetch(ends_before, pixel, 0), row);
+            }
         }
     }
     // Of several dispatches, those after the last layer have nothing to do.
@@ -60,6 +66,9 @@ void main()
         imageStore(layers, pixel_of(row), light[row]);
         if (SEVERAL) {
             imageStore(peeled, pixel_of(row), vec4(before[row], weight_before[row], before_away[row], 0.0));
+            if (COVERAGE_EDGES) {
+                imageStore(ends, pixel_of(row), stored_ended(row));
+            }
         }
     }
 }

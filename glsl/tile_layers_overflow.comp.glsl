@@ -15,10 +15,12 @@
 layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D layers; // alpha * linear color, alpha
 layout(set = 0, binding = BIND_LAYER_STATE, std430) buffer LayerState { vec4 state[]; };
 
+const uint VECTORS = STATE_VECTORS + (COVERAGE_EDGES ? EDGE_STATE_VECTORS : 0);
+
 uint place_of_state(int row)
 {
     uint column = GROUP_NUMBER * TILE_WIDTH + gl_LocalInvocationID.x;
-    return (column * TILE_HEIGHT + OWN_ROW + row) * STATE_VECTORS;
+    return (column * TILE_HEIGHT + OWN_ROW + row) * VECTORS;
 }
 
 void main()
@@ -37,6 +39,9 @@ void main()
             before[row] = state[place + 1].x;
             weight_before[row] = state[place + 1].y;
             before_away[row] = state[place + 1].w;
+            if (COVERAGE_EDGES) {
+                load_ended(state[place + 5], row);
+            }
         }
         if (push.step == STEP_SUM || push.step == STEP_SEE && goes_on) {
             visible_away[row] = state[place + 1].z < 0.0;
@@ -76,6 +81,7 @@ void main()
         state[place + 3] = normals[row];
         if (COVERAGE_EDGES) {
             state[place + 4] = vec4(fall[row], gap[row], summed[row]);
+            state[place + 5] = stored_ended(row);
         }
         imageStore(layers, pixel_of(row), light[row]);
     }

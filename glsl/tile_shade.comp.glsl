@@ -19,6 +19,7 @@
 #define PEELS COVERAGE_EDGES
 #define OF_LAYERS false
 #include "tile/surface.glsl"
+#include "tile/ended.glsl"
 #include "tile/hidden.glsl"
 
 layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D shown; // linear light and opacity, which multiplies it
@@ -61,16 +62,6 @@ void put_behind(Polygons polygons, float whole, inout vec4 light, inout float ow
         own = light.a < 0.5 && light.a + part >= 0.5 ? 0.0 : own;
     }
     light += part * vec4(polygons.light, 1.0);
-}
-
-// How surely what falls like one of these ends toward the same side as what falls like the other: by how parallel both are, since the sums of sheets that are seen nearly edge-on
-// fall more steeply than that of one. What falls by less than a half as much does so by chance.
-float part_behind(vec2 a, vec2 b)
-{
-    float a2 = dot(a, a);
-    float b2 = dot(b, b);
-    float parallel = max(dot(a, b), 0.0);
-    return parallel * min(inversesqrt(max(a2 * b2, 1e-24)), SURE_BEHIND / max(max(a2, b2), 1e-12));
 }
 
 // Surface after surface, until each pixel of the tile is covered or nothing is left: what lies side by side in a pixel adds up. But what ends toward the

@@ -185,7 +185,7 @@
 #define BIND_OVERFLOW_TILES 10 // Binding: the tiles with more splats than one dispatch takes.
 #define BIND_COLORS 11         // Binding: where sums of colors, layers, or what tiles show are stored.
 #define BIND_NORMALS 12        // Binding: where sums of normals are stored; of layers, depth and weight of the last one.
-#define BIND_VISIBLE_DEPTH 13  // Binding: the depth that tiles find.
+#define BIND_VISIBLE_DEPTH 13  // Binding: the depth that tiles find; of layers, what ended.
 #define BIND_DEPTH_BEFORE 14   // Binding: a depth that is there before.
 #define BIND_POLYGON_DEPTH 15  // Binding: the depth of polygons.
 #define BIND_LIGHTS 16         // Binding: the scene's own lights.
@@ -220,7 +220,8 @@
 #define RECT_CHUNK 4294959104 // From this rect on they stand for no tiles but for a chunk each; the last one, all ones, for nothing.
 #define MOST_TILES_SHIFT 14    // Where splats are projected: from this bit on of what tells a chunk's number, how many tiles a splat touches at most.
 #define SLOTS_IN_ROW 256      // Tiles in a row of an image that holds overflow tiles alone.
-#define STATE_VECTORS 5       // Vectors of four floats that are kept of a pixel of an overflow tile's layers.
+#define STATE_VECTORS 4       // Vectors of four floats that are kept of a pixel of an overflow tile's layers;
+#define EDGE_STATE_VECTORS 2  // and so many more where edges cover pixels in part.
 #define WHOLE_TILES 2147483647 // The part of a dispatch that does whole tiles and leaves the overflow tiles out.
 
 // Steps of a layer of overflow tiles.
@@ -266,7 +267,7 @@
 #define LEAST_HALF_FLOAT 5.9604645e-8 // 2^-24, the smallest 16-bit float above 0; kernels end there.
 #define LEAST_SHIFT 1.0e-6            // Of its depth: a splat is shifted by as much at least, where it is shifted at all.
 #define MOST_EDGE_SURFACES 6        // Opaque surfaces behind each other that a pixel shows at their edges, at most.
-#define SURE_BEHIND 2.0             // Over the ratio of what two surfaces fall by: what ends as the one before it does is behind that (`tile_shade.comp.glsl`).
+#define SURE_BEHIND 2.0             // Over the ratio of what two surfaces fall by: what ends as the one before it does is behind that (`tile/ended.glsl`).
 #define EDGE_LENGTHENING 4.0        // Of a slanted splat's epsilon where edges are covered in part (`inc/mapping.glsl`).
 #define SHARP_LENGTHENING 16.0      // The same of a surface with sharp edges.
 #define SHARP_SUM 1.35              // Of a sharp surface, whose sums vary: what weights over the overlap are multiplied by (`inc/edges.glsl`).

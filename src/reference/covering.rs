@@ -99,6 +99,15 @@ pub(super) fn smooth_step(x: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
+/// How surely what falls by `a` ends toward the same side as what falls by `b`: the cosine between both, and less where one is shorter than half of the other.
+pub(super) fn part_behind(a: DVec2, b: DVec2) -> f64 {
+    let [shorter, longer] = [a.length().min(b.length()), a.length().max(b.length())];
+    if shorter == 0.0 {
+        return 0.0;
+    }
+    (a.dot(b) / (shorter * longer)).max(0.0) * (2.0 * shorter / longer).min(1.0)
+}
+
 /// By how much a sum over the overlap falls a pixel, over that at a border: there it is `A = Φ(d/s)`, at distance d under a Gaussian of standard deviation
 /// `s = h/2`, and falls by `φ(Φ⁻¹(A))/s`.
 fn steepness(sum: f64, fall: f64, covering: &Covering) -> f64 {

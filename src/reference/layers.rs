@@ -3,12 +3,13 @@
 
 use glam::{DVec2, DVec3};
 
-use super::covering::covered;
+use super::covering::{covered, fall};
 use super::decision::Decision;
 use super::drawn_clip::Kept;
 use super::fragment::Fragment;
 use super::shade::Shader;
 use super::splat::DrawnSplat;
+use super::stack::Stack;
 use super::surface::{Attributes, Sums, direction};
 use super::transition::{Premultiplied, Splatted, join};
 use super::triangle::DrawnTriangle;
@@ -51,35 +52,6 @@ pub(super) struct Transparent<'a> {
     /// Where they end, layers cover pixels in part.
     pub covers_in_part: bool,
     pub shader: &'a Shader,
-}
-
-/// The layers of a pixel, over whatever is behind them.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Stack {
-    /// Linear, multiplied by alpha.
-    color: DVec3,
-    /// How much is seen through all of them: the product of `1 − α`.
-    transmittance: f64,
-    /// How many there are, drawn or not.
-    pub layers: u32,
-    /// The smallest margin of a decision which layer a fragment belongs to.
-    pub margin: f64,
-}
-
-impl Stack {
-    const EMPTY: Self = Self { color: DVec3::ZERO, transmittance: 1.0, layers: 0, margin: f64::INFINITY };
-
-    fn put_behind(&mut self, layer: Premultiplied) {
-        self.color += self.transmittance * layer.color;
-        self.transmittance *= 1.0 - layer.alpha;
-    }
-
-    /// Over a straight color with alpha, straight again; black where nothing is seen.
-    pub fn over(&self, [red, green, blue, alpha]: [f64; 4]) -> [f64; 4] {
-        let color = self.color + self.transmittance * alpha * DVec3::new(red, green, blue);
-        let alpha = 1.0 - self.transmittance * (1.0 - alpha);
-        if alpha > 0.0 { (color / alpha).extend(alpha).to_array() } else { [0.0; 4] }
-    }
 }
 
 /// Takes the nearest layer out of `remaining`: all that is not behind the smallest shifted depth, of the side that the fragment shows whose depth it is; of
@@ -137,7 +109,11 @@ impl Transparent<'_> {
             let (layer, margin) = self.take_layer(&mut remaining);
             weight_before = Some(weight_of(&layer));
             if stack.layers < surfaces {
-                stack.put_behind(self.surface(ray, &layer));
+                let shown = self.surface(ray, &layer);
+                match self.covers_in_part {
+                    true => stack.put_part_behind(shown, self.ending(&layer)),
+                    false => stack.put_behind(shown),
+                }
                 stack.margin = stack.margin.min(margin);
             }
             stack.layers += 1;
@@ -153,7 +129,7 @@ impl Transparent<'_> {
         })
     }
 
-    /// One layer as one surface.
+    /// One layer as one surface, where it is.
     fn surface(&self, ray: DVec3, layer: &[Translucent]) -> Premultiplied {
         let mut sums = Sums::default();
         let mut polygons = Vec::new();
@@ -172,7 +148,7 @@ impl Transparent<'_> {
         let shade = |attributes: &Attributes| self.shader.shade(attributes.albedo, attributes.normal, ray);
         if self.covers_in_part {
             let Some(splats) = splats else { return Premultiplied::NONE };
-            let alpha = splats.attributes.alpha * self.covered(layer);
+            let alpha = splats.attributes.alpha;
             return Premultiplied { color: alpha * shade(&splats.attributes), alpha };
         }
         let polygons = mean(&polygons).map(|polygon| turned(polygon, ray));
@@ -181,11 +157,25 @@ impl Transparent<'_> {
 
     /// The part of the pixel that they cover.
     fn covered(&self, fragments: &[Translucent]) -> f64 {
-        let splat_of = |fragment: &Translucent| match fragment.source {
+        covered(&fragments.iter().collect::<Vec<_>>(), |fragment| self.splat_of(fragment))
+    }
+
+    /// The same of fragments of one side, how that falls toward where it ends, and whether it faces away.
+    fn ending(&self, layer: &[Translucent]) -> (f64, DVec2, bool) {
+        let splat_of = |fragment: &Translucent| self.splat_of(fragment);
+        let fragments: Vec<_> = layer.iter().collect();
+        (
+            covered(&fragments, splat_of),
+            fall(&fragments, splat_of),
+            layer.iter().any(|of| splat_of(of).faces_away),
+        )
+    }
+
+    fn splat_of(&self, fragment: &Translucent) -> &DrawnSplat {
+        match fragment.source {
             Source::Splat(i) => &self.splats[i],
             Source::Triangle(_) => unreachable!("edges beside polygons in layers are hard"),
-        };
-        covered(&fragments.iter().collect::<Vec<_>>(), splat_of)
+        }
     }
 
     /// All fragments at once, each lit by itself, as the last layer: `C = Σ wα·shade / Σ wα`, `α = Σ wα / Σ w`, whose

@@ -71,6 +71,7 @@ mod search_box;
 mod selection;
 mod shade;
 mod splat;
+mod stack;
 mod surface;
 mod surfaces;
 mod tangents;

@@ -4,7 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use super::band::Frame;
-use super::covering::{covered, fall};
+use super::covering::{covered, fall, part_behind};
 use super::creases::CreasedSums;
 use super::fragment::Fragment;
 use super::front::VisiblePolygon;
@@ -158,15 +158,6 @@ pub(super) fn surfaces(
     seen.add_polygons(frame, share, &left);
     seen.hides_beyond = middle.map_or(seen.hides_beyond, |middle| seen.hides_beyond.min(middle.z));
     seen
-}
-
-/// How surely what falls by `a` ends toward the same side as what falls by `b`: the cosine between both, and less where one is shorter than half of the other.
-fn part_behind(a: DVec2, b: DVec2) -> f64 {
-    let [shorter, longer] = [a.length().min(b.length()), a.length().max(b.length())];
-    if shorter == 0.0 {
-        return 0.0;
-    }
-    (a.dot(b) / (shorter * longer)).max(0.0) * (2.0 * shorter / longer).min(1.0)
 }
 
 /// The color of a surface of splats, and the part that it covers, with all that is `covering`; `None` where nothing is there.

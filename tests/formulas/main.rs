@@ -167,10 +167,12 @@ fn every_formula_of_layers_is_seen() {
 
 #[test]
 fn every_formula_of_edges_is_seen() {
-    let ball = with(&scenes::sphere_of_disks(), |settings| {
-        (settings.edges, settings.rasterizer) = (Edges::Coverage, Rasterizer::Compute);
+    let balls = [scenes::sphere_of_disks(), transparent::interpenetrating()].map(|balls| {
+        with(&balls, |settings| {
+            (settings.edges, settings.rasterizer) = (Edges::Coverage, Rasterizer::Compute);
+        })
     });
-    assert_seen(&mut shared(), &with_oracles([ball]), &Formula::OF_EDGES, &|headless, hard, oracle| {
+    assert_seen(&mut shared(), &with_oracles(balls), &Formula::OF_EDGES, &|headless, hard, oracle| {
         light(&render_as(headless, hard, PICTURE), hard, oracle)
     });
 }

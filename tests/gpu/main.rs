@@ -16,6 +16,7 @@ mod culling;
 mod edges;
 mod edges_inside;
 mod edges_measured;
+mod edges_of_layers;
 mod edges_of_polygons;
 mod embedding;
 mod extremes;

@@ -69,6 +69,7 @@ pub enum Formula {
     Outlined,
     Reach,
     BorderDistance,
+    LayerBehind,
 }
 
 impl Formula {
@@ -88,7 +89,7 @@ impl Formula {
     ];
 
     /// Those of surfaces that cover pixels in part where they end.
-    pub const OF_EDGES: [Self; 2] = [Self::EdgeOpacity, Self::Share];
+    pub const OF_EDGES: [Self; 3] = [Self::EdgeOpacity, Self::Share, Self::LayerBehind];
 
     /// Those of splats at borders, where these cover pixels in part.
     pub const OF_BORDERS: [Self; 2] = [Self::Reach, Self::BorderDistance];

@@ -21,14 +21,17 @@ use crate::passes::{
 use crate::{
     error::Result,
     graph::{Access, Buffer, BufferDesc, Graph, Handle, Image, Start, execute::Body},
-    scene::{LastLayer, Settings},
+    scene::{Edges, LastLayer, Settings},
     shaders::{self, config::*},
 };
 
 /// Bytes of what is known of an overflow tile between dispatches.
-const STATE_BYTES: u64 = (TILE_WIDTH * MOST_TILE_HEIGHT * STATE_VECTORS * 16) as u64;
+fn state_bytes(edges: Edges) -> u64 {
+    let of_edges = if edges == Edges::Coverage { EDGE_STATE_VECTORS } else { 0 };
+    u64::from(TILE_WIDTH * MOST_TILE_HEIGHT * (STATE_VECTORS + of_edges) * 16)
+}
 
-/// Depth and weight of the layer before, and the depth of the last one that faces away, between dispatches.
+/// Depth and weight of the layer before, and the depth of the last one that faces away, between dispatches; and where edges cover pixels in part, what ended.
 const PEELED_FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
 /// What depends on the scene beside the splats.
@@ -111,7 +114,9 @@ fn declare<'a>(
     let mut peeled = (work == Work::Several).then(|| {
         graph.create_image(format_args!("{band}peeled depth and weight"), inputs.image(PEELED_FORMAT))
     });
-    let state_bytes = BufferDesc::of_bytes(plan.most_overflow() * STATE_BYTES);
+    let mut ends = (work == Work::Several && settings.edges == Edges::Coverage)
+        .then(|| graph.create_image(format_args!("{band}layers that end"), inputs.image(PEELED_FORMAT)));
+    let state_bytes = BufferDesc::of_bytes(plan.most_overflow() * state_bytes(settings.edges));
     let mut state = (work == Work::Parts)
         .then(|| graph.create_buffer(format_args!("state of {band}overflow tiles"), state_bytes));
 
@@ -129,6 +134,12 @@ fn declare<'a>(
             .also(at(BIND_NORMALS_BEFORE)),
         // An image that is not written has to be one that may be: a stand-in is only read.
         None => pass.also(at(BIND_NORMALS)),
+    };
+    pass = match &mut ends {
+        Some(ends) => {
+            pass.write(at(BIND_VISIBLE_DEPTH), ends, update, Start::Discard).also(at(BIND_VISIBLE_BEFORE))
+        }
+        None => pass.also(at(BIND_VISIBLE_DEPTH)),
     };
     if let Some(state) = &mut state {
         pass = pass.write(at(BIND_LAYER_STATE), state, Access::StorageReadWriteCompute, Start::Discard);
