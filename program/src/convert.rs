@@ -82,7 +82,8 @@ pub struct ConvertArguments {
     splats: Option<u64>,
 
     /// Simplify the mesh to splats, clipped where it has sharp edges, while no collapse of an edge is off by more than E in units of the file: the
-    /// root mean square distance to the planes of the triangles at a vertex, and the distance of a curve from its ridge
+    /// root mean square distance to the planes of the triangles at a vertex, the distance of a curve from its ridge, and how far an ellipse comes to
+    /// stand off the triangles beside its own, where those of the file don't
     #[arg(long, value_name = "E", allow_hyphen_values = true, conflicts_with = "resample")]
     #[arg(value_parser = parse::number("a length above 0", f64::MIN_POSITIVE..=f64::MAX))]
     max_error: Option<f64>,

@@ -43,11 +43,15 @@ fn head([vertices, triangles]: [usize; 2], made: &SharpReport, size: f64, asked:
         counted(made.pieces, "piece", "pieces"),
         counted(made.clipped, "splat", "splats"),
     );
+    let seen = |length: f64| match length > FEW * size {
+        true => format!(", {:.1}% of its size", 100.0 * length / size),
+        false => String::new(),
+    };
     if made.error > 0.0 {
-        head += &format!(", error up to {:.3e}", made.error);
-        if made.error > FEW * size {
-            head += &format!(", {:.1}% of its size", 100.0 * made.error / size);
-        }
+        head += &format!(", error up to {:.3e}{}", made.error, seen(made.error));
+    }
+    if made.stands_off > made.error {
+        head += &format!(", ellipses stand off it by up to {:.3e}{}", made.stands_off, seen(made.stands_off));
     }
     if let Some(asked) = asked {
         head += &format!(", more splats than the {asked} asked for, because no other edge can be left out");

@@ -17,8 +17,10 @@ use super::{
     conic::Conic,
     ellipse::ellipse,
     fit::fit,
+    halves::{Part, halves},
     model::{Model, directed},
     rim::{SHALLOW, STEPS, cut_at_rim, distance_to_side, inside, part_inside},
+    standing::Disk,
 };
 use crate::{
     geometry::clip::removes,
@@ -30,7 +32,7 @@ const MOST_TRIANGLES: usize = 64;
 
 /// Cosine of 30°: over a triangle that is bent by more, an ellipse would stick out, though there is no ridge. It ends at the side between them, and where nothing
 /// is beyond.
-const COS_BENT: f64 = 0.866;
+pub(super) const COS_BENT: f64 = 0.866;
 
 /// Cosine of 40°, as of the corners of ridges.
 const COS_CORNER: f64 = 0.766;
@@ -49,6 +51,8 @@ pub(super) struct ClippedEllipse {
     pub clip: Clip,
     /// More curves would have been needed.
     pub crowded: bool,
+    /// How far it stands off the surface.
+    pub stands_off: f64,
 }
 
 /// A ridge's piece in the plane of a splat, with the surface on its left.
@@ -99,30 +103,6 @@ pub(super) fn clipped_ellipses(
     made
 }
 
-/// A triangle, or what is left of one that was cut.
-struct Part {
-    p: [DVec3; 3],
-    /// Of ridges, from each corner to the next.
-    curves: [Option<Conic>; 3],
-}
-
-/// Cut across the longest side, in the plane. Where that is a ridge, in the middle of its curve: an ellipse through the middle of its chord would not reach so far.
-fn halves(Part { p, curves }: &Part, normal: DVec3) -> [Part; 2] {
-    let side = |i: usize| p[i].distance_squared(p[(i + 1) % 3]);
-    let i = (0..3).max_by(|a, b| side(*a).total_cmp(&side(*b))).unwrap_or(0);
-    let turned = [0, 1, 2].map(|step| (i + step) % 3);
-    let ([a, b, c], [cut, of_b, of_c]) = (turned.map(|i| p[i]), turned.map(|i| curves[i]));
-    let middle = cut.map_or(0.5 * (a + b), |curve| {
-        let middle = curve.point(0.5);
-        middle - (middle - a).dot(normal) * normal
-    });
-    let [first, second] = [[0.0, 0.5], [0.5, 1.0]].map(|[from, to]| cut?.part(from, to));
-    [
-        Part { p: [a, middle, c], curves: [first, None, of_c] },
-        Part { p: [middle, b, c], curves: [second, of_b, None] },
-    ]
-}
-
 /// The ellipse of a part of a triangle; `None` of one without area.
 fn clipped_ellipse(
     model: &Model<'_>,
@@ -131,13 +111,13 @@ fn clipped_ellipse(
     clipping: Clipping,
 ) -> Option<ClippedEllipse> {
     let (center, s, t) = ellipse(p)?;
-    let whole = ClippedEllipse { center, s, t, clip: Clip::None, crowded: false };
+    let disk = Disk { center, s, t };
+    let flat = |p: DVec3| disk.flat(p);
+    let Reached { triangles, found, too_many } = find(model, triangle, &flat);
     if clipping == Clipping::None {
-        return Some(whole);
+        let stands_off = disk.stands_off(model, p, &triangles, &Clip::None);
+        return Some(ClippedEllipse { center, s, t, clip: Clip::None, crowded: false, stands_off });
     }
-    let [to_u, to_v] = [s / s.length_squared(), t / t.length_squared()];
-    let flat = |p: DVec3| DVec3::new((p - center).dot(to_u), (p - center).dot(to_v), 0.0);
-    let (found, too_many) = find(model, triangle, &flat);
     let runs = runs(found);
     let all: Vec<Option<Cut>> = match clipping {
         Clipping::None => Vec::new(),
@@ -149,11 +129,21 @@ fn clipped_ellipse(
     if clipping == Clipping::Lines {
         clip = clip.map(|curve| ClipCurve::line(curve.start_rad, curve.end_rad));
     }
-    Some(ClippedEllipse { clip, crowded: crowded || too_many || lost, ..whole })
+    let stands_off = disk.stands_off(model, p, &triangles, &clip);
+    Some(ClippedEllipse { center, s, t, clip, crowded: crowded || too_many || lost, stands_off })
 }
 
-/// The pieces of ridges that are reached from a triangle within an ellipse; and whether it reaches over too many triangles.
-fn find(model: &Model<'_>, triangle: usize, flat: &dyn Fn(DVec3) -> DVec3) -> (Vec<Found>, bool) {
+/// What an ellipse reaches over.
+struct Reached {
+    /// First its own.
+    triangles: Vec<usize>,
+    /// The pieces of ridges at them.
+    found: Vec<Found>,
+    too_many: bool,
+}
+
+/// Walks from a triangle within an ellipse.
+fn find(model: &Model<'_>, triangle: usize, flat: &dyn Fn(DVec3) -> DVec3) -> Reached {
     let normal = model.normals[triangle];
     let (mut reached, mut next, mut found) = (vec![triangle], 0, Vec::new());
     while next < reached.len() {
@@ -187,7 +177,7 @@ fn find(model: &Model<'_>, triangle: usize, flat: &dyn Fn(DVec3) -> DVec3) -> (V
         }
     }
     let too_many = reached.len() == MOST_TRIANGLES;
-    (found, too_many)
+    Reached { triangles: reached, found, too_many }
 }
 
 /// Puts pieces one behind the other, and cuts them apart at corners. Only those that come into the ellipse.

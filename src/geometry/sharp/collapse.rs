@@ -4,7 +4,8 @@
 //! **Which.** Vertices on no ridge may go to any neighbor, those within a ridge along it, corners nowhere. **At what price.** The mean squared
 //! distance of the new place to the planes of the vertex's triangles (`quadric`), and for a ridge the square of what the new piece's curve is
 //! off, too. **Feasible** is what keeps the topology (vertices that both ends have for neighbors are the third corners of the triangles between
-//! them), turns no triangle by more than 60°, leaves a curve to the ridge, and that curve within the ellipses of its triangles.
+//! them), turns no triangle by more than 60°, leaves a curve to the ridge, and that curve within the ellipses of its triangles. Where an error is
+//! given, it also lets no ellipse stand off the surface by more (`standing`).
 //!
 //! **In passes.** Each vertex finds its cheapest collapse, at the same time as all others; from the cheapest on those are done that are feasible and
 //! whose neighborhoods are untouched. So the result does not depend on threads, and no queue is kept.
@@ -168,9 +169,14 @@ impl<'a> State<'a> {
                 _ => self.targets(candidate, &around, most).get(choice).copied(),
             };
             let Some(Target { price, to, .. }) = target else { continue };
+            if most.is_finite() && self.changes_beside(from, &around, &locked) {
+                continue;
+            }
             let piece = candidate.piece.as_deref();
             let curve = piece.map(|piece| (piece.other_end(to), &piece.fitted.conic));
-            if locked[to as usize] || !self.is_feasible(from, to, &around, &mut marks, curve) {
+            let is_feasible = !locked[to as usize]
+                && self.is_feasible(from, to, &around, &mut marks, curve, goal.most_error);
+            if !is_feasible {
                 let choice = choice + 1;
                 let next = self.targets(candidate, &around, most).get(choice).copied();
                 later.extend(next.map(|next| Later { rank: next.rank, candidate: number, choice }));

@@ -23,7 +23,7 @@ const BEYOND: f64 = 0.02;
 const NEAREST: f64 = 0.2;
 
 impl State<'_> {
-    /// `piece`: of a ridge, the vertex at its other end, and the curve between the two.
+    /// `piece`: of a ridge, the vertex at its other end, and the curve between the two. `most_error`: by how much ellipses may stand off the surface that did not before.
     pub fn is_feasible(
         &self,
         from: u32,
@@ -31,6 +31,7 @@ impl State<'_> {
         around: &Around,
         marks: &mut Marks,
         piece: Option<(u32, &Conic)>,
+        most_error: f64,
     ) -> bool {
         let faces = around.of_vertex(from).iter().map(|i| self.triangles[*i as usize]);
         let shared = faces.clone().filter(|corners| corners.contains(&to)).count();
@@ -41,7 +42,7 @@ impl State<'_> {
             return false;
         }
         let moved = |corners: [u32; 3]| corners.map(|vertex| if vertex == from { to } else { vertex });
-        faces.filter(|corners| !corners.contains(&to)).all(|corners| {
+        let stays = faces.filter(|corners| !corners.contains(&to)).all(|corners| {
             let (old, new) = (corners.map(|i| self.place(i)), moved(corners).map(|i| self.place(i)));
             let [before, after] = [old, new].map(|p| (p[1] - p[0]).cross(p[2] - p[0]));
             let turns = before.dot(after) < COS_TURN * before.length() * after.length();
@@ -50,7 +51,14 @@ impl State<'_> {
                 return false;
             }
             self.curves_fit(moved(corners), new, piece.map(|(end, conic)| (end, to, conic)))
-        })
+        });
+        let end = piece.map(|(end, _)| end);
+        let stands_off = |to: Option<u32>| self.stands_off(from, to, around, end);
+        stays
+            && (most_error == f64::INFINITY || {
+                let after = stands_off(Some(to));
+                after <= most_error || after <= stands_off(None)
+            })
     }
 
     /// Whether the curves of a triangle's ridges lie in its ellipse.
@@ -87,7 +95,7 @@ impl State<'_> {
     }
 
     /// The piece between two vertices: its chain, and where in it it begins.
-    fn piece_between(&self, a: u32, b: u32) -> Option<(u32, u32)> {
+    pub(super) fn piece_between(&self, a: u32, b: u32) -> Option<(u32, u32)> {
         let kinds = [a, b].map(|vertex| self.ridges.kinds[vertex as usize]);
         let from = |chain: u32, place: u32, other: u32| {
             let (vertices, links) = (&self.ridges.chains[chain as usize], &self.links[chain as usize]);

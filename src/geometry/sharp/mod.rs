@@ -13,12 +13,14 @@ mod edges;
 mod ellipse;
 mod feasible;
 mod fit;
+mod halves;
 mod model;
 mod orientation;
 mod quadric;
 mod ridges;
 mod rim;
 mod slivers;
+mod standing;
 #[cfg(test)]
 mod tests;
 
@@ -58,7 +60,7 @@ pub struct SharpOptions {
     /// So many splats at the most, where the mesh can be simplified so far; `None`: one for each triangle, or as few as `max_error` allows.
     pub splats: Option<u64>,
     /// The largest error of a collapse, world units: root mean square distance to the planes that meet at the vertex, and largest distance of
-    /// a curve from its ridge. `None`: any.
+    /// a curve from its ridge. Nor does an ellipse come to stand off the triangles beside its own by more, if those before did not. `None`: any.
     pub max_error: Option<f64>,
     /// The least angle between the normals of two triangles at a ridge; radians.
     pub crease_rad: f64,
@@ -90,6 +92,8 @@ pub struct SharpReport {
     pub crowded: usize,
     /// The largest error of a collapse; see [`SharpOptions::max_error`].
     pub error: f64,
+    /// The largest distance of what is left of an ellipse from the simplified mesh, over edges that are no ridge.
+    pub stands_off: f64,
     /// Triangles pass every edge as often in one direction as in the other: a closed surface, seen from outside.
     pub closed: bool,
 }
@@ -137,7 +141,8 @@ pub fn sharp_splats(
         let pieces = state.pieces();
         let model = model(&positions, &state.triangles, &pieces, &ridges.chains);
         let made = ellipses(&model, options.clipping, progress);
-        report = SharpReport { pieces: pieces.len(), error: state.error(), ..report };
+        let stands_off = made.iter().flatten().map(|one| one.stands_off).fold(0.0, f64::max);
+        report = SharpReport { pieces: pieces.len(), error: state.error(), stands_off, ..report };
         let count: usize = made.iter().map(Vec::len).sum();
         // Triangles that became several splats: so many fewer triangles, if there can be fewer.
         let over = count.saturating_sub(goal.triangles);

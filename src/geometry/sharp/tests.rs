@@ -4,6 +4,7 @@ mod cut_apart;
 mod distances;
 mod gaps;
 mod rival;
+mod standing;
 
 use std::f64::consts::TAU;
 
