@@ -33,6 +33,19 @@ impl Arena {
         self.0.alloc(value)
     }
 
+    /// The same, to be changed.
+    #[expect(clippy::mut_from_ref, reason = "each has memory of its own")]
+    pub fn keep_changing<T>(&self, value: T) -> &mut T {
+        const { assert!(!std::mem::needs_drop::<T>(), "what is in an arena is not dropped") };
+        self.0.alloc(value)
+    }
+
+    /// The same as [`Self::keep`] of one that is made there: large ones are copied else.
+    pub fn keep_made<T>(&self, make: impl FnOnce() -> T) -> &T {
+        const { assert!(!std::mem::needs_drop::<T>(), "what is in an arena is not dropped") };
+        self.0.alloc_with(make)
+    }
+
     /// What something says.
     pub fn text(&self, text: impl fmt::Display) -> &str {
         let mut string = bumpalo::collections::String::with_capacity_in(MOST_OF_A_NAME, &self.0);

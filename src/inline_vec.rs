@@ -55,7 +55,9 @@ impl<T: Copy + Default, const N: usize> Extend<T> for InlineVec<T, N> {
 
 impl<T: Copy + Default, const N: usize> FromIterator<T> for InlineVec<T, N> {
     fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
-        Self::new().with(values)
+        let mut all = Self::new();
+        all.extend(values);
+        all
     }
 }
 

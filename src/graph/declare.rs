@@ -15,6 +15,9 @@ use super::{
 };
 use crate::arena::{Arena, ArenaVec};
 
+/// Uses that most passes have room for: a list that grows is copied.
+const MOST_USES: usize = 16;
+
 /// A frame in the making, which lies in a frame's memory. `Body` is what a pass records; the graph carries it and never looks inside.
 #[derive(Debug)]
 pub struct Graph<'a, Body> {
@@ -163,7 +166,9 @@ impl<'a, Body> Graph<'a, Body> {
             side_effect: false,
             foreign: None,
         };
-        PassBuilder { uses: self.arena.growing(), graph: self, pass }
+        let mut uses = self.arena.growing();
+        uses.reserve(MOST_USES);
+        PassBuilder { uses, graph: self, pass }
     }
 }
 
@@ -193,14 +198,13 @@ pub struct PassBuilder<'g, 'a, Body> {
 impl<'a, Body> PassBuilder<'_, 'a, Body> {
     /// Reads a resource. Several reads of one image must agree on its layout.
     pub fn read<Kind>(mut self, handle: &Handle<Kind>, access: Access) -> Self {
-        self.declare(handle, access, None);
+        self.reads(handle, access);
         self
     }
 
     /// Writes a resource: what is in it from now on is this pass's work.
     pub fn write<Kind>(mut self, handle: &mut Handle<Kind>, access: Access, start: Start) -> Self {
-        self.declare(handle, access, Some(start));
-        handle.version += 1;
+        self.writes(handle, access, start);
         self
     }
 
@@ -212,7 +216,7 @@ impl<'a, Body> PassBuilder<'_, 'a, Body> {
 
     /// Says what it does, for whoever measures it.
     pub fn role(mut self, role: Role) -> Self {
-        self.pass.role = role;
+        self.does(role);
         self
     }
 
@@ -228,20 +232,45 @@ impl<'a, Body> PassBuilder<'_, 'a, Body> {
 
     /// Keeps the pass even if nobody reads what it writes.
     pub fn side_effect(mut self) -> Self {
-        self.pass.side_effect = true;
+        self.has_side_effect();
         self
     }
 
     /// Puts the pass into the graph.
-    pub fn finish(self, body: Body) {
+    pub fn finish(mut self, body: Body) {
+        self.end(body);
+    }
+
+    /// The same of one that stays where it is.
+    pub(crate) fn end(&mut self, body: Body) {
         let Self { graph, pass, uses } = self;
-        for usage in &uses {
+        for usage in &*uses {
             if usage.start.is_some() {
                 graph.declared.resources[usage.resource.index()].version += 1;
             }
         }
-        graph.declared.passes.push(Pass { uses: uses.into_bump_slice(), ..pass });
+        let uses = std::mem::replace(uses, graph.arena.growing()).into_bump_slice();
+        let Pass { name, why, role, side_effect, foreign, .. } = *pass;
+        graph.declared.passes.push(Pass { name, why, role, uses, side_effect, foreign });
         graph.bodies.push(body);
+    }
+
+    /// As [`Self::read`], of one that stays where it is; the others alike.
+    pub(crate) fn reads<Kind>(&mut self, handle: &Handle<Kind>, access: Access) {
+        self.declare(handle, access, None);
+    }
+
+    pub(crate) fn writes<Kind>(&mut self, handle: &mut Handle<Kind>, access: Access, start: Start) {
+        self.declare(handle, access, Some(start));
+        handle.version += 1;
+    }
+
+    pub(crate) fn does(&mut self, role: Role) {
+        self.pass.role = role;
+    }
+
+    pub(crate) fn has_side_effect(&mut self) {
+        self.pass.side_effect = true;
     }
 
     fn declare<Kind>(&mut self, handle: &Handle<Kind>, access: Access, start: Option<Start>) {

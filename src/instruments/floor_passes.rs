@@ -89,7 +89,7 @@ pub fn floor_points<'a>(
     let pipeline = pass.compute(points_key(draw.variant))?;
     pass.finish(move |pass| {
         let groups = [draw.chunk.count.div_ceil(FLOOR_GROUP_SIZE), 1];
-        dispatch(pass, draw.chunk, &draw.constants, pipeline, pass.set(Place::Lists(0))?, groups)
+        dispatch(pass, draw.chunk, &draw.told(), pipeline, pass.set(Place::Lists(0))?, groups)
     });
     Ok(())
 }

@@ -6,3 +6,4 @@ pub mod random;
 pub mod size;
 pub mod srgb;
 pub mod tonemap;
+pub(crate) mod within;

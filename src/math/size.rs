@@ -34,7 +34,7 @@ const LARGEST_RADIUS_RATIO: f64 = 2.0;
 /// most 0.9 of its center's depth p. Its nearest point is p − d deep, at least the nearest depth z, so that d ≤ r ≤ 2 z ≤ 2 (p − d) is
 /// d ≤ 2/3 p, and rounding does not matter; of the near plane, the nearest
 /// depth has a reserve for it. Under parallel rays how deep it is does not matter.
-fn all_regular(bound: &SizeBound) -> bool {
+pub(super) fn all_regular(bound: &SizeBound) -> bool {
     bound.nearest_z > bound.near
         && (bound.is_orthographic || bound.largest_radius <= LARGEST_RADIUS_RATIO * bound.nearest_z)
 }
@@ -67,7 +67,12 @@ pub fn sides(size_px: [f64; 2], middle_px: [f64; 2], focal_px: f64) -> [[f64; 2]
 
 /// From the view's axis to the farthest side, in the image plane.
 pub fn half_image(bound: &SizeBound) -> f64 {
-    bound.sides.iter().flatten().fold(0.0, |most, side| most.max(side.abs()))
+    farthest(bound.sides)
+}
+
+/// The same of [`sides`].
+pub fn farthest(sides: [[f64; 2]; 2]) -> f64 {
+    sides.iter().flatten().fold(0.0, |most, side| most.max(side.abs()))
 }
 
 /// That bound for splats all of whose images, as far as they are in the image, lie within ±`most_x` of the image plane.
@@ -110,9 +115,9 @@ fn length(x: f64, y: f64) -> f64 {
 }
 
 /// Pixels along a side whose centers such a box holds: half of the rounding is for `BOX_MARGIN_PX` of `glsl/inc/box.glsl`, and one
-/// is what a length has more than whole pixels.
-pub fn pixels_along(box_px: f64) -> f64 {
-    (box_px - 1.5).floor()
+/// is what a length has more than whole pixels. Not by `floor`, which is a call where a processor has no instruction for it. What is wider than any image, or NaN, has a billion.
+pub fn pixels_along(box_px: f64) -> u64 {
+    if box_px < 1e9 { (box_px - 1.5) as u64 } else { 1_000_000_000 }
 }
 
 #[cfg(test)]
@@ -120,6 +125,16 @@ mod tests {
     use super::*;
     use glam::{DVec2, DVec3};
     use proptest::prelude::*;
+
+    #[test]
+    fn whole_pixels_of_a_box_are_its_floor_and_of_what_has_no_bound_there_are_many() {
+        for box_px in [3.0, 3.4, 3.5, 4.49, 4.5, 17.0, 1e6 + 0.4, 9.9e8] {
+            assert_eq!(pixels_along(box_px), (box_px - 1.5).floor() as u64, "{box_px}");
+        }
+        for box_px in [1e9, f64::INFINITY, f64::NAN] {
+            assert_eq!(pixels_along(box_px), 1_000_000_000);
+        }
+    }
 
     proptest! {
         /// Points of random disks in front of the near plane never span more than the bound.

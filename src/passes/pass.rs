@@ -4,6 +4,7 @@
 use std::{
     cell::{Cell, RefCell},
     fmt::Display,
+    mem::ManuallyDrop,
 };
 
 use crate::passes::pipeline::{
@@ -84,13 +85,19 @@ impl<'a> Source<'a> {
     }
 }
 
-/// A pass in the making.
+/// A pass in the making. It lies in the frame's memory: whoever names its resources one after the other hands it on each time.
 #[must_use = "a pass is declared by `finish`"]
-pub(crate) struct Pass<'g, 'a> {
+pub(crate) struct Pass<'g, 'a>(&'g mut ManuallyDrop<Making<'g, 'a>>);
+
+/// Nothing of it has anything to drop but what is in the frame's memory.
+struct Making<'g, 'a> {
     declared: PassBuilder<'g, 'a, Body<'a>>,
     source: Source<'a>,
     bound: ArenaVec<'a, (At, ResourceId)>,
 }
+
+/// Places that most passes have room for.
+const MOST_BOUND: usize = 16;
 
 impl<'g, 'a> Pass<'g, 'a> {
     /// A pass of this name, unique in its frame; `why` the frame has it.
@@ -100,20 +107,24 @@ impl<'g, 'a> Pass<'g, 'a> {
         name: impl Display,
         why: &'static str,
     ) -> Self {
-        Self { bound: graph.arena().growing(), declared: graph.pass(name).why(why), source }
+        let arena: &'g Arena = graph.arena();
+        let mut bound = graph.arena().growing();
+        bound.reserve(MOST_BOUND);
+        let declared = graph.pass(name).why(why);
+        Self(arena.keep_changing(ManuallyDrop::new(Making { declared, source, bound })))
     }
 
     /// The memory of the frame.
     pub fn arena(&self) -> &'a Arena {
-        self.declared.arena()
+        self.0.declared.arena()
     }
 
     /// A pipeline of compute, made where it was not made yet.
     pub fn compute(&self, mut key: ComputeKey) -> Result<Pipeline> {
         let layout = key.layout;
-        self.source.complete(layout, &mut key.constants);
-        let raw = match self.source.place {
-            Place::Device(shaders, _) => shaders.compute_if(key, self.source.missing)?,
+        self.0.source.complete(layout, &mut key.constants);
+        let raw = match self.0.source.place {
+            Place::Device(shaders, _) => shaders.compute_if(key, self.0.source.missing)?,
             Place::List(list) => self.list(list, Key::Compute(key)),
         };
         Ok(Pipeline { raw, layout })
@@ -122,22 +133,22 @@ impl<'g, 'a> Pass<'g, 'a> {
     /// A pipeline of graphics, made where it was not made yet.
     pub fn graphics(&self, mut key: GraphicsKey) -> Result<Pipeline> {
         let layout = key.layout;
-        self.source.complete(layout, &mut key.constants);
-        let raw = match self.source.place {
-            Place::Device(shaders, _) => shaders.graphics_if(key, self.source.missing)?,
+        self.0.source.complete(layout, &mut key.constants);
+        let raw = match self.0.source.place {
+            Place::Device(shaders, _) => shaders.graphics_if(key, self.0.source.missing)?,
             Place::List(list) => self.list(list, Key::Graphics(key)),
         };
         Ok(Pipeline { raw, layout })
     }
 
     fn list(&self, list: &RefCell<Vec<PipelineRecipe>>, key: Key) -> ash::vk::Pipeline {
-        list.borrow_mut().push(PipelineRecipe { pass: self.declared.name().to_owned(), key });
+        list.borrow_mut().push(PipelineRecipe { pass: self.0.declared.name().to_owned(), key });
         ash::vk::Pipeline::null()
     }
 
     /// Reads a resource.
-    pub fn read<K>(mut self, at: At, handle: &Handle<K>, access: Access) -> Self {
-        self.bound.push((at, handle.id()));
+    pub fn read<K>(self, at: At, handle: &Handle<K>, access: Access) -> Self {
+        self.0.bound.push((at, handle.id()));
         self.uses(handle, access)
     }
 
@@ -150,50 +161,56 @@ impl<'g, 'a> Pass<'g, 'a> {
     }
 
     /// Writes a resource.
-    pub fn write<K>(mut self, at: At, handle: &mut Handle<K>, access: Access, start: Start) -> Self {
-        self.bound.push((at, handle.id()));
+    pub fn write<K>(self, at: At, handle: &mut Handle<K>, access: Access, start: Start) -> Self {
+        self.0.bound.push((at, handle.id()));
         self.attach(handle, access, start)
     }
 
     /// Finds the resource that was named last at another place, too.
-    pub fn also(mut self, at: At) -> Self {
-        let last = self.bound.last().map(|(_, id)| *id);
-        self.bound.extend(last.map(|id| (at, id)));
+    pub fn also(self, at: At) -> Self {
+        let last = self.0.bound.last().map(|(_, id)| *id);
+        self.0.bound.extend(last.map(|id| (at, id)));
         self
     }
 
     /// Reads what neither sets nor draws name: a depth that is tested.
     pub fn uses<K>(self, handle: &Handle<K>, access: Access) -> Self {
-        Self { declared: self.declared.read(handle, access), ..self }
+        self.0.declared.reads(handle, access);
+        self
     }
 
     /// Writes what they don't name: an attachment.
     pub fn attach<K>(self, handle: &mut Handle<K>, access: Access, start: Start) -> Self {
-        Self { declared: self.declared.write(handle, access, start), ..self }
+        self.0.declared.writes(handle, access, start);
+        self
     }
 
     /// Says what it does, for whoever measures it.
     pub fn role(self, role: Role) -> Self {
-        Self { declared: self.declared.role(role), ..self }
+        self.0.declared.does(role);
+        self
     }
 
     /// Keeps the pass even if nobody reads what it writes.
     pub fn side_effect(self) -> Self {
-        Self { declared: self.declared.side_effect(), ..self }
+        self.0.declared.has_side_effect();
+        self
     }
 
     /// Declares the pass; `body` records it.
     pub fn finish(self, body: impl Fn(&Recording<'_, 'a>) -> Result<()> + 'a) {
-        let Self { declared, source, mut bound } = self;
+        let Making { declared, source, bound } = &mut **self.0;
+        let (source, mut bound) = (*source, std::mem::replace(bound, declared.arena().growing()));
         bound.sort_unstable();
         let bound = bound.into_bump_slice();
         let body = declared.arena().keep(move |context: &PassContext<'_>| match source.place {
             Place::Device(shaders, descriptors) => {
-                let (pipeline, planes, tints) = (Cell::default(), source.planes, source.tints);
-                body(&Recording { context, shaders, descriptors, bound, pipeline, planes, tints })
+                let (pipeline, sets) = (Cell::default(), Cell::default());
+                let (planes, tints) = (source.planes, source.tints);
+                body(&Recording { context, shaders, descriptors, bound, pipeline, sets, planes, tints })
             }
             Place::List(_) => Ok(()),
         });
-        declared.finish(body);
+        declared.end(body);
     }
 }

@@ -24,6 +24,10 @@ pub(crate) struct Pipeline {
     pub layout: Layout,
 }
 
+/// A buffer of arguments that a pass has declared.
+#[derive(Clone, Copy)]
+pub(crate) struct Arguments(vk::Buffer);
+
 /// A pass while it is recorded.
 ///
 /// What records into its command buffer is called by bodies alone, which bind what their pipelines need before they draw or dispatch:
@@ -40,7 +44,12 @@ pub(crate) struct Recording<'c, 'a> {
     pub tints: Option<Tints>,
     /// The pipeline that was bound last: chunks in a row often share one.
     pub pipeline: Cell<vk::Pipeline>,
+    /// The sets that were bound last: one scene may stand in many places.
+    pub sets: Cell<Option<BoundSets>>,
 }
+
+/// Two sets of a layout, and the number of the first.
+pub(crate) type BoundSets = (Layout, u32, [vk::DescriptorSet; 2]);
 
 impl Recording<'_, '_> {
     /// The device.
@@ -141,8 +150,12 @@ impl Recording<'_, '_> {
         unsafe { self.device().cmd_bind_pipeline(self.commands(), point, pipeline.raw) };
     }
 
-    /// Binds sets of a layout from the one with this number on.
+    /// Binds sets of a layout from the one with this number on, where they are not those that were bound last.
     pub fn bind_sets(&self, layout: Layout, first: u32, sets: &[vk::DescriptorSet]) -> Result<()> {
+        let two = <[vk::DescriptorSet; 2]>::try_from(sets).ok().map(|two| (layout, first, two));
+        if self.sets.replace(two) == two && two.is_some() {
+            return Ok(());
+        }
         let (point, layout) = (layout.bind_point(), self.shaders.layout(layout)?.raw());
         // SAFETY: the sets have the layouts that the pipeline layout has from `first` on.
         unsafe { self.device().cmd_bind_descriptor_sets(self.commands(), point, layout, first, sets, &[]) };
@@ -178,10 +191,19 @@ impl Recording<'_, '_> {
 
     /// Dispatches as many workgroups as the arguments say at an offset in bytes.
     pub fn dispatch_indirect(&self, arguments: At, offset: u64) -> Result<()> {
-        let buffer = self.buffer(arguments)?;
+        self.dispatch_by(self.arguments(arguments)?, offset);
+        Ok(())
+    }
+
+    /// The arguments that the pass found there: looked for once by whoever dispatches for each of many chunks.
+    pub fn arguments(&self, at: At) -> Result<Arguments> {
+        self.buffer(at).map(Arguments)
+    }
+
+    /// The same as [`Self::dispatch_indirect`], by arguments that were looked for.
+    pub fn dispatch_by(&self, Arguments(buffer): Arguments, offset: u64) {
         // SAFETY: as in `dispatch`; the arguments were declared to be read, and are within the buffer.
         unsafe { self.device().cmd_dispatch_indirect(self.commands(), buffer, offset) };
-        Ok(())
     }
 
     /// Draws so many vertices, so often.

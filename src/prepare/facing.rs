@@ -131,6 +131,16 @@ impl Facing {
     /// No more of them face an eye that is there from the local origin, local unit; or, if it `is_far`, in that direction. `None` where it is too near for that.
     pub fn most(&self, eye: DVec3, is_far: bool) -> Option<u32> {
         let near = if is_far { 0.0 } else { self.farthest / eye.length() };
+        self.most_toward(eye, near)
+    }
+
+    /// How far the farthest is from the local origin.
+    pub fn farthest(&self) -> f64 {
+        self.farthest
+    }
+
+    /// The same by a direction of any length, and that as a part of the eye's distance.
+    pub fn most_toward(&self, eye: DVec3, near: f64) -> Option<u32> {
         // NaN is too near.
         let is_known = near * (NEAREST * (1.0 + 1e-9)) < 1.0;
         let step = ((near * (NEAREST * STEPS as f64)) as usize).min(STEPS - 1);

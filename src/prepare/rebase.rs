@@ -86,9 +86,10 @@ impl Rebase {
     }
 
     /// The same, by that camera's own motion.
+    #[inline]
     pub(crate) fn view_from(&self, view: &ViewFromWorld) -> ViewFromLocal {
         let origin_in_view = view.point(self.origin);
-        let view_from_world_scale = self.unit_of_view(origin_in_view.length()).recip();
+        let view_from_world_scale = one_over(self.unit_of_view(origin_in_view.length()));
         ViewFromLocal {
             rotation: view.rotation,
             translation: origin_in_view * view_from_world_scale,
@@ -136,8 +137,21 @@ fn power_of_two_above(length: f64) -> f64 {
     }
 }
 
+/// One over such a power of two, by its bits, too.
+fn one_over(power_of_two: f64) -> f64 {
+    f64::from_bits(2 * 1.0_f64.to_bits() - power_of_two.to_bits())
+}
+
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn one_over_a_power_of_two_is_its_quotient() {
+        for length in [1e-320, 1e-301, 1e-9, 0.7, 1.0, 3.0, 1e9, 1e300, f64::INFINITY] {
+            let unit = super::power_of_two_above(length);
+            assert_eq!(super::one_over(unit), unit.recip(), "{length}");
+        }
+    }
+
     use super::*;
     use crate::scene::{Colors, Shapes};
 

@@ -92,7 +92,10 @@ impl Placement {
     /// [`crate::error::ErrorKind::Option`] for numbers that are not finite, a scale not above 0, a rotation that is not of length 1.
     pub fn validate(&self) -> Result<()> {
         let finite = self.translation.is_finite() && self.rotation.is_finite() && self.scale.is_finite();
-        if finite && self.scale > 0.0 && (self.rotation.length() - 1.0).abs() <= ROUNDING {
+        // A length is nearer to 1 than its square is.
+        let is_unit = (self.rotation.length_squared() - 1.0).abs() <= ROUNDING
+            || (self.rotation.length() - 1.0).abs() <= ROUNDING;
+        if finite && self.scale > 0.0 && is_unit {
             return Ok(());
         }
         let Self { rotation, scale, translation } = self;
@@ -126,7 +129,12 @@ impl Placement {
 
     /// The eye of that camera, by itself.
     pub(crate) fn eye(&self, camera: &Camera) -> DVec3 {
-        self.rotation.normalize().conjugate() * (camera.eye - self.translation) / self.scale
+        self.eye_turned(camera, self.rotation.normalize())
+    }
+
+    /// The same, by the rotation as a unit quaternion.
+    pub(crate) fn eye_turned(&self, camera: &Camera, turn: DQuat) -> DVec3 {
+        turn.conjugate() * (camera.eye - self.translation) / self.scale
     }
 
     /// A plane of the world in the scene's own space: its unit normal, and how far the origin is on the side that the normal points to.

@@ -17,7 +17,7 @@ use crate::passes::{
         block_list::ListedBlocks,
         draws::{Draw, by_variant},
     },
-    recording::{Recording, rows_of},
+    recording::{Arguments, Recording, rows_of},
 };
 use crate::{
     error::Result,
@@ -41,7 +41,7 @@ fn words_of(draws: &[Draw<'_>]) -> u64 {
 
 /// Blocks that are looked in, of all chunks: a list of their splats is within what a buffer holds, so that they are fewer than 2³².
 fn blocks_of(draws: &[Draw<'_>]) -> u32 {
-    draws.iter().map(|draw| draw.constants.listed_blocks()).sum()
+    draws.iter().map(|draw| draw.place.listed_blocks).sum()
 }
 
 /// The visible splats of all chunks.
@@ -73,22 +73,34 @@ impl VisibleList {
 /// The arguments of the visible splats of all chunks.
 pub(crate) const VISIBLE_ARGUMENTS: At = Place::VisibleArguments.at(0);
 
-/// Records a draw of points, one a visible splat of a chunk, inside of rendering with all bound but the indices.
-pub(crate) fn draw_visible(pass: &Recording<'_, '_>, chunk: usize) -> Result<()> {
-    let (list, arguments) = (pass.buffer(INDICES)?, pass.buffer(VISIBLE_ARGUMENTS)?);
-    let offset = 4 * ARGUMENT_WORDS * chunk as u64;
-    // SAFETY: as the caller has it; both buffers were declared to be read so, and hold indices within the chunk and
-    // a command a chunk.
-    unsafe {
-        pass.device().cmd_bind_index_buffer(pass.commands(), list, 0, vk::IndexType::UINT32);
-        pass.device().cmd_draw_indexed_indirect(pass.commands(), arguments, offset, 1, 20);
+/// The buffers that visible splats are drawn by, of all chunks: looked for once.
+#[derive(Clone, Copy)]
+pub(crate) struct VisibleDraws {
+    list: vk::Buffer,
+    arguments: vk::Buffer,
+}
+
+impl VisibleDraws {
+    /// Those that a pass found.
+    pub fn of(pass: &Recording<'_, '_>) -> Result<Self> {
+        Ok(Self { list: pass.buffer(INDICES)?, arguments: pass.buffer(VISIBLE_ARGUMENTS)? })
     }
-    Ok(())
+
+    /// Records a draw of points, one a visible splat of a chunk, inside of rendering with all bound but the indices.
+    pub fn draw(self, pass: &Recording<'_, '_>, chunk: usize) {
+        let offset = 4 * ARGUMENT_WORDS * chunk as u64;
+        // SAFETY: as the caller has it; both buffers were declared to be read so, and hold indices within the chunk and
+        // a command a chunk.
+        unsafe {
+            pass.device().cmd_bind_index_buffer(pass.commands(), self.list, 0, vk::IndexType::UINT32);
+            pass.device().cmd_draw_indexed_indirect(pass.commands(), self.arguments, offset, 1, 20);
+        }
+    }
 }
 
 /// Records a dispatch of one invocation a visible splat of a chunk with all bound.
-pub(crate) fn dispatch_visible(pass: &Recording<'_, '_>, chunk: usize) -> Result<()> {
-    pass.dispatch_indirect(VISIBLE_ARGUMENTS, 4 * ARGUMENT_WORDS * chunk as u64 + DISPATCH_OFFSET)
+pub(crate) fn dispatch_visible(pass: &Recording<'_, '_>, arguments: Arguments, chunk: usize) {
+    pass.dispatch_by(arguments, 4 * ARGUMENT_WORDS * chunk as u64 + DISPATCH_OFFSET);
 }
 
 /// A pipeline that marks, scans or lists.
@@ -134,8 +146,8 @@ pub(crate) fn dispatch_words<'a>(
     pass.finish(move |pass| {
         let set = pass.set(Place::Lists(0))?;
         for (draw, pipeline) in inputs.draws.iter().zip(pipelines) {
-            let groups = groups_of(draw.constants.listed_blocks());
-            dispatch(pass, draw.chunk, &draw.constants, *pipeline, set, groups)?;
+            let groups = groups_of(draw.place.listed_blocks);
+            dispatch(pass, draw.chunk, &draw.told(), *pipeline, set, groups)?;
         }
         Ok(())
     });
@@ -168,7 +180,7 @@ pub(crate) fn list_marked<'a>(
         let set = pass.set(Place::Lists(0))?;
         // One for all chunks; the set of any will do.
         match inputs.draws.first() {
-            Some(draw) => dispatch(pass, draw.chunk, &draw.constants, scan, set, [1, 1]),
+            Some(draw) => dispatch(pass, draw.chunk, &draw.told(), scan, set, [1, 1]),
             None => Ok(()),
         }
     });
@@ -183,7 +195,7 @@ pub(crate) fn list_marked<'a>(
     pass.finish(move |pass| {
         let Some(draw) = inputs.draws.first() else { return Ok(()) };
         // One for all chunks; the set of any will do, and their number is in the place of its own.
-        let mut constants = FrameConstants { first_record: 0, ..draw.constants };
+        let mut constants = FrameConstants { first_record: 0, ..draw.told() };
         constants.number_chunk(inputs.draws.len() as u32);
         let groups = groups_of(blocks_of(inputs.draws));
         dispatch(pass, draw.chunk, &constants, write, pass.set(Place::Lists(0))?, groups)

@@ -130,7 +130,7 @@ impl<'a> PickPlan<'a> {
         let chunks: HashMap<*const Chunk, &Chunk> =
             scene.chunks.iter().map(|chunk| (std::ptr::from_ref(chunk), chunk)).collect();
         let chunk = |draw: &Draw<'_>| {
-            let (constants, variant) = (draw.constants, *draw.variant);
+            let (constants, variant) = (draw.told(), *draw.variant);
             chunks.get(&std::ptr::from_ref(draw.chunk)).map(|chunk| PickedChunk { chunk, constants, variant })
         };
         let draws: Vec<_> = all.iter().filter_map(chunk).collect();

@@ -56,11 +56,13 @@ impl FrameConstants {
     }
 
     /// Lets so many blocks of the chunk be looked at; a chunk has 2¹⁴ at most.
+    #[inline]
     pub(crate) fn list_blocks(&mut self, blocks: u32) {
         self.blocks_overlap = self.blocks_overlap & 0xffff_0000 | blocks;
     }
 
     /// Gives the chunk its number in its part of the frame.
+    #[inline]
     pub(crate) fn number_chunk(&mut self, number: u32) {
         self.chunk_color = 2 * number + self.chunk_color % 2;
     }

@@ -14,7 +14,6 @@ use crate::passes::plan::{
 };
 use crate::{
     arena::{Arena, ArenaVec},
-    prepare::Chunk,
     scene::{Settings, TileMemory},
     vk::Limits,
 };
@@ -59,11 +58,12 @@ impl<'a> Band<'a> {
 /// Bytes that records and lists of a frame may take at once: what splats with them are one and a half times what the splats take in a
 /// scene.
 pub(crate) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u64 {
-    let sum = |of: fn(&Chunk) -> u64| draws.iter().map(|draw| of(draw.chunk)).sum::<u64>();
     match memory {
         TileMemory::Auto => {
-            let splats = sum(Chunk::splat_bytes);
-            let most = (sum(|chunk| chunk.scene_bytes) * 3 / 2).saturating_sub(splats);
+            let [in_scene, splats] = draws.iter().fold([0; 2], |[in_scene, splats], draw| {
+                [in_scene + draw.chunk.scene_bytes, splats + draw.chunk.splat_bytes()]
+            });
+            let most = (in_scene * 3 / 2).saturating_sub(splats);
             (most - most / BESIDE).max(LEAST_BYTES)
         }
         TileMemory::Most(bytes) => bytes,

@@ -3,7 +3,10 @@
 use std::ops::Range;
 
 use crate::arena::Arena;
-use crate::passes::plan::{draws::Draw, seen::PotentiallyVisibleRun};
+use crate::passes::plan::{
+    draws::{Draw, DrawPlace},
+    seen::PotentiallyVisibleRun,
+};
 use crate::shaders::config::{ALL_IN_VIEW, ALL_OF_LEVEL, ALL_VISIBLE, BLOCK_SPLATS, HAS_BOUNDS, LEVEL_WORDS};
 
 /// Words in front of the runs: the rows, and how many runs there are.
@@ -39,8 +42,7 @@ impl<'a> ListedBlocks<'a> {
             let (before, mut last) = (place, None);
             let has_bounds = draw.has_bounds();
             begins.push(place);
-            draw.constants.number_chunk(number);
-            draw.constants.first_record = place * BLOCK_SPLATS;
+            let first_record = place * BLOCK_SPLATS;
             for run in runs.iter().filter(|run| run.touches(&rows)) {
                 let known = |is: bool, what: u32| if is { what } else { 0 };
                 let all_visible = known(run.is_within(&rows), ALL_VISIBLE);
@@ -61,7 +63,7 @@ impl<'a> ListedBlocks<'a> {
                 words.extend([place, u32::MAX / BLOCK_SPLATS]);
                 place += 1;
             }
-            draw.constants.list_blocks(place - before);
+            draw.place = DrawPlace { number, first_record, listed_blocks: place - before };
         }
         begins.push(place);
         words[HEAD_WORDS - 1] = ((words.len() - HEAD_WORDS) / 2) as u32;

@@ -64,7 +64,6 @@ fn look_at(
     (look, eye): (&BlockCullView<'_>, &Eye),
 ) {
     let balls = Balls::of(quad, eye);
-    let [faces_away, faces_eye] = balls.faces(quad, eye);
     let image = balls.image(eye);
     let (mut seen, mut in_view) = (image.seen & quad.filled, image.whole);
     for plane in look.planes {
@@ -72,6 +71,7 @@ fn look_at(
     }
     let mut whole = in_view;
     if look.culls {
+        let [faces_away, faces_eye] = balls.faces(quad, eye);
         (seen, whole) = (seen & !faces_away, whole & faces_eye);
     }
     let nearest_z = balls.nearest_z().max(Vec4::splat(look.bound.nearest_z as f32));

@@ -3,7 +3,11 @@
 use glam::DVec4;
 
 use crate::{
-    math::size::{SizeBound, box_px, half_image, largest_box_px},
+    math::{
+        size::{SizeBound, box_within_px},
+        within::is_within_px,
+    },
+    passes::pipeline::constants::FrameConstants,
     passes::plan::{
         blocks::BlockCullView,
         in_view::{center_and_half, wholly_in_view},
@@ -28,19 +32,32 @@ pub struct ChunkView<'a> {
     pub(super) by_origin: f64,
     /// The planes that cut what is seen, in view space: unit normals toward what is left, and by how much the eye is inside.
     pub(super) planes: &'a [DVec4],
+    /// As [`crate::math::size::half_image`] has it.
+    pub(super) half_image: f64,
+    /// What shaders are told, wherever it is among others.
+    pub constants: FrameConstants,
 }
 
 impl ChunkView<'_> {
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
     pub fn largest_box_px(&self) -> f64 {
-        largest_box_px(&self.bound).min(self.of_level_px)
+        self.box_px(self.bound.largest_radius)
+    }
+
+    /// Whether that is more than so many pixels.
+    pub(super) fn exceeds(&self, px: f64) -> bool {
+        !is_within_px(&self.bound, self.half_image, px) && self.largest_box_px() > px
+    }
+
+    fn box_px(&self, radius: f64) -> f64 {
+        box_within_px(&self.bound, radius, self.half_image).min(self.of_level_px)
     }
 
     /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as [`Self::largest_box_px`].
     pub(crate) fn boxes(&self) -> impl Iterator<Item = (u32, f64)> + Clone {
         self.chunk.radii.iter().map(|step| {
             let radius = step.radius * self.view.view_from_local_scale;
-            (step.count, box_px(&self.bound, radius).min(self.of_level_px))
+            (step.count, self.box_px(radius))
         })
     }
 
@@ -51,16 +68,8 @@ impl ChunkView<'_> {
 
     /// How its blocks are looked at where what faces away is not drawn, or is, and of its levels of detail as these are seen.
     pub(super) fn look<'b>(&'b self, culls: bool, levels: Option<&'b LevelView>) -> BlockCullView<'b> {
-        let Self { view, bound, planes, by_origin, .. } = self;
-        BlockCullView {
-            view,
-            bound,
-            culls,
-            levels,
-            planes,
-            by_origin: *by_origin,
-            half_image: half_image(bound),
-        }
+        let Self { view, bound, planes, by_origin, half_image, .. } = self;
+        BlockCullView { view, bound, culls, levels, planes, by_origin: *by_origin, half_image: *half_image }
     }
 
     /// The largest depth of a splat's center, in view space.

@@ -1,7 +1,7 @@
 //! Which splats are left out before they are set up, and before they are summed (`--cull`).
 
 use crate::passes::{
-    pipeline::{splat_shaders::Primitive, variant::culls},
+    pipeline::splat_shaders::Primitive,
     plan::{draws::Draw, few::are_few},
 };
 use crate::{
@@ -18,7 +18,7 @@ const LEAST_PART: u64 = 64;
 
 /// Whether some splats face away and are not drawn, or may lie outside of the view.
 pub(crate) fn may_leave_out(splats: &[Draw<'_>]) -> bool {
-    splats.iter().any(|draw| culls(draw.variant) || !draw.is_wholly_in_view())
+    splats.iter().any(|draw| draw.culls || !draw.is_wholly_in_view())
 }
 
 /// Whether tiles are made of listed splats where a list gains something.
@@ -86,8 +86,7 @@ pub(crate) fn primitives_cull_hidden(polygons: bool, settings: &Settings) -> boo
 pub(crate) fn number_splats(splats: &mut [Draw<'_>]) {
     let mut next = 0_u32;
     for (number, draw) in (0..).zip(splats) {
-        draw.constants.number_chunk(number);
-        draw.constants.first_record = next;
+        (draw.place.number, draw.place.first_record) = (number, next);
         // Where 32 bits are too few, nobody looks at it.
         next = next.wrapping_add(draw.chunk.count);
     }

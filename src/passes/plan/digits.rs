@@ -79,7 +79,8 @@ fn is_far_from_least(Placed { scene, at, .. }: &Placed<'_>, camera: &Camera) -> 
     let farthest = splats.chain(meshes).fold(0.0, f64::max);
     let near = camera.near();
     // NaN is not far.
-    (1e-30..1e30).contains(&(near / at.scale)) && near > 10.0 * LEAST_NEAR * (eye + at.scale * farthest)
+    (1e-30 * at.scale..1e30 * at.scale).contains(&near)
+        && near > 10.0 * LEAST_NEAR * (eye + at.scale * farthest)
 }
 
 /// How far from its local origin a chunk reaches, by a length of a vector.

@@ -3,11 +3,7 @@
 use std::ops::Deref;
 
 use crate::passes::{
-    pipeline::{
-        constants::FrameConstants,
-        splat_shaders::Primitive,
-        variant::{Constants, culls},
-    },
+    pipeline::{constants::FrameConstants, splat_shaders::Primitive, variant::Constants},
     plan::{
         blocks::{
             BlockCullView,
@@ -33,12 +29,12 @@ use crate::{
     vk::Limits,
 };
 
-/// A chunk in this frame: as it is seen, and how it is drawn.
+/// A chunk in this frame: as it is seen, and how it is drawn. Lists of draws are copied, band by band: what bands have in common lies in the view.
 #[derive(Clone, Copy)]
 pub struct Draw<'a> {
     seen: &'a ChunkView<'a>,
-    /// What its shaders are told.
-    pub constants: FrameConstants,
+    /// What shaders are told of its place among others.
+    pub(crate) place: DrawPlace,
     /// How the camera sees its levels of detail, where some of its splats are of none that is drawn.
     pub(crate) levels: Option<&'a LevelView>,
     /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
@@ -48,6 +44,19 @@ pub struct Draw<'a> {
     pub(crate) half_sums: bool,
     /// The specialization constants of its pipelines.
     pub(crate) variant: &'a Constants,
+    /// Splats of it that face away are not drawn.
+    pub(crate) culls: bool,
+}
+
+/// Where the splats of a chunk are among those that a pass goes over.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct DrawPlace {
+    /// The chunk's number in its part of the frame.
+    pub number: u32,
+    /// As [`FrameConstants::first_record`].
+    pub first_record: u32,
+    /// As [`FrameConstants::listed_blocks`].
+    pub listed_blocks: u32,
 }
 
 impl<'a> Deref for Draw<'a> {
@@ -59,6 +68,16 @@ impl<'a> Deref for Draw<'a> {
 }
 
 impl Draw<'_> {
+    /// What its shaders are told.
+    #[inline]
+    pub fn told(&self) -> FrameConstants {
+        let DrawPlace { number, first_record, listed_blocks } = self.place;
+        let mut told = FrameConstants { first_record, ..self.seen.constants };
+        told.number_chunk(number);
+        told.list_blocks(listed_blocks);
+        told
+    }
+
     /// The blocks in which there may be something to see.
     pub(crate) fn potentially_visible_runs<'m>(&self, arena: &'m Arena) -> &'m [PotentiallyVisibleRun] {
         potentially_visible_runs(arena, self.chunk, &self.look())
@@ -78,7 +97,7 @@ impl Draw<'_> {
 
     /// Whether a device finds by bounds which way its blocks face.
     pub(crate) fn has_bounds(&self) -> bool {
-        self.chunk.facing.is_some() && culls(self.variant)
+        self.chunk.facing.is_some() && self.culls
     }
 
     /// The same, looked at more closely.
@@ -93,7 +112,7 @@ impl Draw<'_> {
 
     /// How its blocks are looked at.
     pub(super) fn look(&self) -> BlockCullView<'_> {
-        self.seen.look(culls(self.variant), self.levels)
+        self.seen.look(self.culls, self.levels)
     }
 }
 
@@ -136,7 +155,7 @@ pub fn draws<'a, 's>(
         .scene
         .chunks
         .iter()
-        .filter_map(move |chunk| draw(arena, (placed, 0, chunk), view, settings, &variants))
+        .filter_map(move |chunk| draw(arena, (&placed, 0, chunk), view, settings, &variants))
 }
 
 /// As `glsl/inc/reach.glsl` has it.
@@ -150,14 +169,14 @@ pub(super) fn reaches(chunk: &Chunk, settings: &Settings) -> bool {
 /// A chunk of a scene, which has that number among those of the frame, and is seen so; none where the scene itself is drawn and the chunk stands for its splats.
 pub(super) fn draw<'a>(
     arena: &'a Arena,
-    (Placed { at, .. }, number, chunk): (Placed<'a>, u32, &'a Chunk),
+    (Placed { at, .. }, number, chunk): (&Placed<'a>, u32, &'a Chunk),
     of_scene: &SceneView<'a>,
     settings: &Settings,
     variants: &SplatVariants<'a, '_>,
 ) -> Option<Draw<'a>> {
     let levels = chunk
         .levels
-        .and_then(|levels| LevelView::new(levels, chunk.transparent, &of_scene.camera(&at), settings));
+        .and_then(|levels| LevelView::new(levels, chunk.transparent, &of_scene.camera(at), settings));
     if levels.is_none() && chunk.stands_for_others() {
         return None;
     }
@@ -171,7 +190,7 @@ pub(super) fn draw<'a>(
         Epsilon::Length(length) if chunk.epsilon.is_some() => (0.0, length),
         Epsilon::Length(length) => (0.0, length / at.scale),
     };
-    let filter_radius_px = settings.samples.filter_radius_px();
+    let filter_radius_px = of_scene.frame.filter_radius_px;
     let by_origin = by_origin(chunk, &view);
     let bound = SizeBound {
         nearest_z: nearest_z(chunk, &view, by_origin),
@@ -206,7 +225,8 @@ pub(super) fn draw<'a>(
             view.fine_rows();
     }
     let clip = of_scene.clip;
-    let seen = arena.keep(ChunkView {
+    let half_image = of_scene.half_image(&bound);
+    let seen = arena.keep_made(|| ChunkView {
         chunk,
         placed: number,
         of_level_px,
@@ -217,20 +237,25 @@ pub(super) fn draw<'a>(
             true => &[],
             false => arena.list(clip.iter().map(|plane| in_view(*plane, &of_scene.view, &view))),
         },
+        half_image,
+        constants,
     });
     let levels = levels.map(|levels| arena.keep(levels));
+    let (variant, culls) =
+        variants.of(chunk, of_scene.whole_px().unwrap_or(settings.size_px), wanted, levels);
     Some(Draw {
         seen,
-        constants,
+        place: DrawPlace::default(),
         levels,
         may_be_large: match Primitive::of(settings.rasterizer) {
-            Primitive::Point => seen.largest_box_px() > f64::from(variants.limits.point_size_range[1]),
+            Primitive::Point => seen.exceeds(variants.limits.point_size_range[1].into()),
             // Filters leave no splat thin.
             Primitive::Triangle => settings.filter == Filter::None || seen.largest_box_px().is_infinite(),
             Primitive::Quad => false,
         },
         half_sums: false,
-        variant: variants.of(chunk, of_scene.whole_px().unwrap_or(settings.size_px), wanted, levels),
+        variant,
+        culls,
     })
 }
 

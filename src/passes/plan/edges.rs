@@ -1,13 +1,10 @@
 //! Which surfaces cover pixels in part where they end.
 
-use crate::passes::{
-    pipeline::variant::culls,
-    plan::{
-        SplatMethod, SurfacePlan,
-        bands::Band,
-        draws::{Draw, reaches},
-        splat_variants::change_variants,
-    },
+use crate::passes::plan::{
+    SplatMethod, SurfacePlan,
+    bands::Band,
+    draws::{Draw, reaches},
+    splat_variants::change_variants,
 };
 use crate::{
     arena::Arena,
@@ -32,7 +29,7 @@ impl<'a> SurfacePlan<'a> {
         if !coverage && !transparent {
             return;
         }
-        let two_sided = coverage && self.splats.iter().any(|draw| !culls(draw.variant));
+        let two_sided = coverage && self.splats.iter().any(|draw| !draw.culls);
         let reaches =
             coverage && !transparent && self.splats.iter().any(|draw| reaches(draw.chunk, &self.settings));
         let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());

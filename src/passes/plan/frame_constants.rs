@@ -16,6 +16,7 @@ use crate::{
 const LARGEST_EPSILON: f64 = 1e30;
 
 /// What is the same for all that is drawn in one local space; ε in radii and as a world length.
+#[inline(always)] // Who writes it elsewhere would wait for it.
 pub(crate) fn frame_constants(
     view: &ViewFromLocal,
     of_scene: &SceneView<'_>,
@@ -37,7 +38,7 @@ pub(crate) fn frame_constants(
         middle_px: of_scene.frame.middle_px.map(|at| at as f32),
         focal_px: focal_px as f32,
         near: near as f32,
-        filter_radius: (settings.samples.filter_radius_px() / focal_px) as f32,
+        filter_radius: of_scene.filter_radius(focal_px) as f32,
         epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
         epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
         size_less_1_px: in_one_word(settings.size_px.map(|side| side.saturating_sub(1).min(0xffff))),

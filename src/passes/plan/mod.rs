@@ -138,7 +138,6 @@ impl<'a> FramePlan<'a> {
         let camera = &range.begin(camera);
         let lights = lights::shader_lights(arena, scenes, camera);
         let seen = arena.keep(CameraView::new((camera, range), settings));
-        let views = arena.list(scenes.iter().map(|placed| seen.of_scene(arena, &placed.at)));
         let variants = SplatVariants::new(arena, settings, limits);
         let surface = |transparent: bool| {
             // What is to come has pipelines ahead.
@@ -147,11 +146,17 @@ impl<'a> FramePlan<'a> {
             let (mut splats, mut meshes) = (arena.growing(), arena.growing());
             let drawn = scenes.iter().flat_map(|placed| &placed.scene.chunks).filter(|chunk| is_drawn(chunk));
             splats.reserve(drawn.count());
-            for ((placed, number), view) in scenes.iter().zip(0..).zip(views) {
-                for chunk in placed.scene.chunks.iter().filter(|chunk| is_drawn(chunk)) {
-                    splats.extend(draw(arena, (*placed, number, chunk), view, settings, &variants));
-                }
+            for (placed, number) in scenes.iter().zip(0..) {
+                let mut chunks = placed.scene.chunks.iter().filter(|chunk| is_drawn(chunk)).peekable();
                 let own = placed.scene.meshes.iter().filter(|chunk| chunk.transparent == transparent);
+                let mut own = own.peekable();
+                if chunks.peek().is_none() && own.peek().is_none() {
+                    continue;
+                }
+                let view = &seen.of_scene(arena, &placed.at);
+                for chunk in chunks {
+                    splats.extend(draw(arena, (placed, number, chunk), view, settings, &variants));
+                }
                 meshes.extend(
                     own.map(|chunk| MeshDraw { placed: number, ..mesh_draw(*placed, chunk, view, settings) }),
                 );

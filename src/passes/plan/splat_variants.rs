@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use crate::passes::{
-    pipeline::variant::{Constants, splat_constants, sums_under},
+    pipeline::variant::{Constants, culls, splat_constants, sums_under},
     plan::{draws::Draw, levels::LevelView},
 };
 use crate::{
@@ -38,7 +38,7 @@ pub(crate) struct SplatVariants<'a, 's> {
     /// What splats sum to, over what they sum to under the default kernel.
     pub sums: f64,
     /// Those of the chunk before.
-    last: Cell<Option<(Kind, &'a Constants)>>,
+    last: Cell<Option<(Kind, (&'a Constants, bool))>>,
 }
 
 impl<'a, 's> SplatVariants<'a, 's> {
@@ -47,14 +47,14 @@ impl<'a, 's> SplatVariants<'a, 's> {
         Self { arena, settings, limits, sums: sums_under(settings.kernel), last: Cell::default() }
     }
 
-    /// Those of a chunk, in an image that is a part of a whole picture of that size, with this ε and these levels of detail.
+    /// Those of a chunk, in an image that is a part of a whole picture of that size, with this ε and these levels of detail; and whether splats are left out by them that face away.
     pub fn of(
         &self,
         chunk: &Chunk,
         whole_px: [u32; 2],
         epsilon: Epsilon,
         levels: Option<&LevelView>,
-    ) -> &'a Constants {
+    ) -> (&'a Constants, bool) {
         let kind = Kind {
             whole_px,
             levels: levels.map(|levels| (levels.constant(), levels.blends())),
@@ -67,12 +67,13 @@ impl<'a, 's> SplatVariants<'a, 's> {
             clipped: chunk.clipped,
             sparse: chunk.sparse,
         };
-        if let Some((_, constants)) = self.last.get().filter(|(last, _)| *last == kind) {
-            return constants;
+        if let Some((_, found)) = self.last.get().filter(|(last, _)| *last == kind) {
+            return found;
         }
         let constants = self.arena.keep(self.make(&kind));
-        self.last.set(Some((kind, constants)));
-        constants
+        let made = (constants, culls(constants));
+        self.last.set(Some((kind, made)));
+        made
     }
 
     fn make(&self, kind: &Kind) -> Constants {

@@ -176,15 +176,16 @@ impl TilePlan {
         // What has no bound may come near the eye.
         let has_rect =
             largest.is_finite() && image.along(largest).iter().all(|a_side| *a_side <= most_a_side.into());
-        let fits = has_rect && of_largest <= in_rounds(MOST_ROUNDS_OF_ALL) && entries(of_largest) <= room;
+        let is_few = has_rect && of_largest <= in_rounds(MOST_ROUNDS_OF_ALL);
+        let of_all = is_few.then(|| entries(of_largest)).filter(|of_all| *of_all <= room);
         let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds(MOST_ROUNDS));
         // As many as there is room for if all have them; or as they have, where there is room for all.
-        let most_tiles = match fits {
-            true => of_largest,
-            false if entries(most_of_all) <= room => most_of_all.min(of_largest),
-            false => most_of_all.min(room / records),
+        let most_tiles = match of_all {
+            Some(_) => of_largest,
+            None if entries(most_of_all) <= room => most_of_all.min(of_largest),
+            None => most_of_all.min(room / records),
         };
-        let entry_room = entries(most_tiles);
+        let entry_room = of_all.unwrap_or_else(|| entries(most_tiles));
         let most_tiles = most_tiles as u32;
         let walk_length = TILE_BATCH * MOST_ITERATIONS / 2;
         let whole = Self {
@@ -204,7 +205,7 @@ impl TilePlan {
             walk_length,
             part_length: walk_length,
             layers_at_once: 1,
-            may_be_large: !fits,
+            may_be_large: of_all.is_none(),
             overflows_somewhere: false,
             hidden: false,
             two_sided: false,

@@ -3,7 +3,7 @@
 use ash::vk;
 
 use crate::passes::{
-    cull::visible::{VISIBLE_ARGUMENTS, draw_visible},
+    cull::visible::{VISIBLE_ARGUMENTS, VisibleDraws},
     inputs::Inputs,
     pass::Pass,
     pipeline::{
@@ -114,24 +114,25 @@ pub(crate) fn draw_splats(
     pipelines: &[DrawPipelines],
 ) -> Result<()> {
     let primitive = Primitive::of(inputs.settings.rasterizer);
-    let (predicated, listed) = (is_predicated(pass), pass.has(VISIBLE_ARGUMENTS));
+    let predicated = is_predicated(pass);
+    let listed = pass.has(VISIBLE_ARGUMENTS).then(|| VisibleDraws::of(pass)).transpose()?;
     // Chunks without lists share a set of stand-ins.
     let mut unlisted = None;
     for (number, (draw, pipelines)) in inputs.draws.iter().zip(pipelines).enumerate() {
         let large = arguments(number as u32);
-        let lists = match (pass.has(large), unlisted) {
+        let lists = match (draw.may_be_large && pass.has(large), unlisted) {
             (true, _) => pass.set(Place::Lists(number as u32))?,
             (false, Some(unlisted)) => unlisted,
             (false, None) => *unlisted.insert(pass.set(Place::NoLists)?),
         };
         pass.bind_sets(Layout::Splat, 0, &[draw.chunk.set(), lists])?;
         // Lists of large splats have numbers within their chunks.
-        pass.push(Layout::Splat, &FrameConstants { first_record: 0, ..draw.constants })?;
+        pass.push(Layout::Splat, &FrameConstants { first_record: 0, ..draw.told() })?;
         pass.bind(pipelines.own);
         match (predicated, listed) {
             (true, _) => predicate::draw_splats(pass, number)?,
-            (false, true) => draw_visible(pass, number)?,
-            (false, false) => pass.draw(primitive.counts(draw.chunk.count)),
+            (false, Some(visible)) => visible.draw(pass, number),
+            (false, None) => pass.draw(primitive.counts(draw.chunk.count)),
         }
         if let Some(quads) = pipelines.quads {
             pass.bind(quads);

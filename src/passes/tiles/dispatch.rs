@@ -168,8 +168,11 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
 }
 
 /// ε of a slanted splat is as if its surface bent away within the filter's reach, hundreds of radii where it is seen edge-on: toward a polygon
-/// it is no more than the splat's own image is large, or what was behind would be seen through. What has a length is not lengthened.
+/// it is no more than the splat's own image is large, or what was behind would be seen through. What has a length is not lengthened. Where there is no polygon, nothing is.
 fn polygon_reach(inputs: Inputs<'_>) -> f32 {
+    if inputs.meshes.is_empty() {
+        return 0.0;
+    }
     let epsilons = inputs.draws.iter().map(|draw| draw.chunk.epsilon.unwrap_or(inputs.settings.epsilon));
     let radii = epsilons.map(|epsilon| match epsilon {
         Epsilon::Auto => 1.0,

@@ -75,10 +75,10 @@ fn finish<'a>(pass: Pass<'_, 'a>, inputs: Inputs<'a>, tiles: &Tiles<'a>, splats:
         let lists = pass.set(Place::Lists(0))?;
         for ((number, draw), pipeline) in (0..).zip(inputs.draws).zip(pipelines.iter().copied()) {
             // Of listed splats the lists have indices within their chunks.
-            let first_record = if inputs.listed.is_some() { 0 } else { draw.constants.first_record };
+            let first_record = if inputs.listed.is_some() { 0 } else { draw.place.first_record };
             pass.bind(pipeline);
             pass.bind_sets(Layout::Splat, 0, &[draw.chunk.set(), lists])?;
-            pass.push(Layout::Splat, &FrameConstants { first_record, ..draw.constants })?;
+            pass.push(Layout::Splat, &FrameConstants { first_record, ..draw.told() })?;
             // They begin at any instance, as the device can.
             pass.draw_indirect(arguments(0), 4 * u64::from(ARGUMENTS_CHUNKS) + 16 * number)?;
         }

@@ -68,14 +68,15 @@ pub(crate) fn project<'a>(
     let most_tiles = tiles.plan.most_tiles;
     pass.finish(move |pass| {
         let set = pass.set(Place::Tiles(0))?;
+        let arguments = pass.has(VISIBLE_ARGUMENTS).then(|| pass.arguments(VISIBLE_ARGUMENTS)).transpose()?;
         // Chunks write places of their own.
         for (number, (draw, pipeline)) in inputs.draws.iter().zip(pipelines.iter().copied()).enumerate() {
             pass.bind(pipeline);
             pass.bind_sets(pipeline.layout, 0, &[draw.chunk.set(), set])?;
-            pass.push(pipeline.layout, &draw.constants.with_most_tiles(most_tiles))?;
-            match pass.has(VISIBLE_ARGUMENTS) {
-                true => dispatch_visible(pass, number)?,
-                false => pass.dispatch(rows_of(draw.chunk.count.div_ceil(PROJECT_GROUP_SIZE))),
+            pass.push(pipeline.layout, &draw.told().with_most_tiles(most_tiles))?;
+            match arguments {
+                Some(arguments) => dispatch_visible(pass, arguments, number),
+                None => pass.dispatch(rows_of(draw.chunk.count.div_ceil(PROJECT_GROUP_SIZE))),
             }
         }
         Ok(())

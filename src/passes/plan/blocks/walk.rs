@@ -98,17 +98,22 @@ pub(in super::super) fn run_of_all<'m>(
         &mut runs,
         Place { first: 0, each: end, end, of_detail: &[], blocks: &[] },
         &facing.whole,
-        (look, &look.eye()),
+        (&BlockCullView { culls: false, ..*look }, &look.eye()),
     );
     let Some(run) = runs.first_mut() else { return Some(&[]) };
     if !run.all_in_view {
         return None;
     }
-    let eye = match look.bound.is_orthographic {
-        true => -look.view.rotation.row(2),
-        false => look.view.origin_from_eye / -look.view.view_from_local_scale,
+    // Which way they face is told by their number alone.
+    run.all_seen = false;
+    run.count = match look.bound.is_orthographic {
+        true => facing.most(-look.view.rotation.row(2), true)?,
+        false => {
+            let origin = look.view.origin_from_eye;
+            let near = facing.farthest() * look.view.view_from_local_scale / origin.length();
+            facing.most_toward(-origin, near)?
+        }
     };
-    run.count = facing.most(eye, look.bound.is_orthographic)?;
     Some(runs.into_bump_slice())
 }
 

@@ -12,10 +12,10 @@ pub(super) struct ImageTiles {
 impl ImageTiles {
     /// Tiles that a box of so many pixels touches at most, along each side: one more for each tile's pixels beyond the first, up to all of the image.
     pub fn along(self, box_px: f64) -> [u64; 2] {
+        let px = pixels_along(box_px);
         let touched = |tile_px: u32, all: u32| {
-            let tile_px = f64::from(tile_px);
-            let tiles = ((pixels_along(box_px) + tile_px - 2.0) / tile_px).floor() + 1.0;
-            tiles.min(f64::from(all)) as u64
+            let tiles = (px + u64::from(tile_px) - 2 >> tile_px.trailing_zeros()) + 1;
+            tiles.min(all.into())
         };
         [touched(TILE_WIDTH, self.along[0]), touched(self.invocations.tile_height(), self.along[1])]
     }
