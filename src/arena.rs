@@ -34,7 +34,6 @@ impl Arena {
     }
 
     /// The same, to be changed.
-    #[expect(clippy::mut_from_ref, reason = "each has memory of its own")]
     pub fn keep_changing<T>(&self, value: T) -> &mut T {
         const { assert!(!std::mem::needs_drop::<T>(), "what is in an arena is not dropped") };
         self.0.alloc(value)

@@ -14,7 +14,7 @@ impl ImageTiles {
     pub fn along(self, box_px: f64) -> [u64; 2] {
         let px = pixels_along(box_px);
         let touched = |tile_px: u32, all: u32| {
-            let tiles = (px + u64::from(tile_px) - 2 >> tile_px.trailing_zeros()) + 1;
+            let tiles = ((px + u64::from(tile_px) - 2) >> tile_px.trailing_zeros()) + 1;
             tiles.min(all.into())
         };
         [touched(TILE_WIDTH, self.along[0]), touched(self.invocations.tile_height(), self.along[1])]
