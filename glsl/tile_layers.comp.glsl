@@ -17,10 +17,10 @@ layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D layers; // alph
 
 // One of several dispatches, for loops have an end on llvmpipe (tile/work.glsl): light, depth and weight go on in images.
 layout(constant_id = SPEC_SEVERAL) const bool SEVERAL = false;
-layout(set = 0, binding = BIND_NORMALS) writeonly uniform image2D peeled; // depth and weight of the layer before, and depth of the last one that faces away
+layout(set = 0, binding = BIND_NORMALS) writeonly uniform image2D peeled; // depth and weight of the layer before, depth of the last one that faces away, and what layers of one surface cover
 layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D layers_before;
 layout(set = 0, binding = BIND_NORMALS_BEFORE) uniform texture2D peeled_before;
-// COVERAGE_EDGES: and what ended (tile/layers.glsl).
+// COVERAGE_EDGES: and what ended (tile/stack.glsl).
 layout(set = 0, binding = BIND_VISIBLE_DEPTH) writeonly uniform image2D ends;
 layout(set = 0, binding = BIND_VISIBLE_BEFORE) uniform texture2D ends_before;
 
@@ -39,6 +39,7 @@ void main()
             weight_before[row] = texelFetch(peeled_before, pixel, 0).g;
             before_away[row] = texelFetch(peeled_before, pixel, 0).b;
             if (COVERAGE_EDGES) {
+                surface_part[row] = texelFetch(peeled_before, pixel, 0).a;
                 load_ended(texelFetch(ends_before, pixel, 0), row);
             }
         }
@@ -65,7 +66,7 @@ void main()
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         imageStore(layers, pixel_of(row), light[row]);
         if (SEVERAL) {
-            imageStore(peeled, pixel_of(row), vec4(before[row], weight_before[row], before_away[row], 0.0));
+            imageStore(peeled, pixel_of(row), vec4(before[row], weight_before[row], before_away[row], surface_part[row]));
             if (COVERAGE_EDGES) {
                 imageStore(ends, pixel_of(row), stored_ended(row));
             }

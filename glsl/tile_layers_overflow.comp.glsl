@@ -41,11 +41,15 @@ void main()
             before_away[row] = state[place + 1].w;
             if (COVERAGE_EDGES) {
                 load_ended(state[place + 5], row);
+                surface_part[row] = state[place + 6].x;
             }
         }
         if (push.step == STEP_SUM || push.step == STEP_SEE && goes_on) {
             visible_away[row] = state[place + 1].z < 0.0;
             visible[row] = abs(state[place + 1].z);
+            if (COVERAGE_EDGES) {
+                goes_on_from[row] = state[place + 6].y;
+            }
         }
         if (push.step != STEP_SEE && goes_on) {
             colors[row] = state[place + 2];
@@ -82,6 +86,7 @@ void main()
         if (COVERAGE_EDGES) {
             state[place + 4] = vec4(fall[row], gap[row], summed[row]);
             state[place + 5] = stored_ended(row);
+            state[place + 6] = vec4(surface_part[row], goes_on_from[row], 0.0, 0.0);
         }
         imageStore(layers, pixel_of(row), light[row]);
     }

@@ -221,7 +221,7 @@
 #define MOST_TILES_SHIFT 14    // Where splats are projected: from this bit on of what tells a chunk's number, how many tiles a splat touches at most.
 #define SLOTS_IN_ROW 256      // Tiles in a row of an image that holds overflow tiles alone.
 #define STATE_VECTORS 4       // Vectors of four floats that are kept of a pixel of an overflow tile's layers;
-#define EDGE_STATE_VECTORS 2  // and so many more where edges cover pixels in part.
+#define EDGE_STATE_VECTORS 3  // and so many more where edges cover pixels in part.
 #define WHOLE_TILES 2147483647 // The part of a dispatch that does whole tiles and leaves the overflow tiles out.
 
 // Steps of a layer of overflow tiles.

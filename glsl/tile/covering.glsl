@@ -88,10 +88,10 @@ float covering_sum(int row)
     return kept_part(row) * (has_own_sum() ? summed[row] : colors[row].w);
 }
 
-// The part of the pixel that the surface covers. What hardly falls in a layer may be what an epsilon has left of it: the rest is in the next one, which does not add up.
+// The part of the pixel that the surface covers. What hardly falls in a layer may be what an epsilon has left of it: the rest is in the next one, which does not add up (unless it goes on: tile/stack.glsl).
 float opacity_of(int row)
 {
     float sum = has_own_sum() ? summed[row] : colors[row].w;
     float steepness = steepness_of(sum, length(fall[row]));
-    return kept_part(row) * edge_opacity(sum, own_of(gap_of(row), border[row]), OF_LAYERS ? max(steepness, NOT_FLAT) : steepness);
+    return kept_part(row) * edge_opacity(sum, own_of(gap_of(row), border[row]), OF_LAYERS && !CURVED ? max(steepness, NOT_FLAT) : steepness);
 }

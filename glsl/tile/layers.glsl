@@ -1,58 +1,27 @@
 // Transparent layers of a tile's splats, from front to back: each is seen, summed, shaded, and put under the light so far; all that is
 // left behind them is the last one. Depths, sums and light stay in registers.
-//
-// COVERAGE_EDGES: light T that comes through layers is the mean of a pixel, but both sides of a ball end at the same outline: where the near one covers a part p, the far one is seen through
-// it all over p, by 1 - alpha and not by 1 - p alpha. So of the part p that ended it is known how much light T_in comes through there; beside it comes (T - p T_in) / (1 - p). Of a layer
-// that covers c, and ends where the other side of it has, min(c, p) lies behind p, and what is left beside it; any other layer has c T of all. Of the same side it may be what an epsilon has
-// left. What ended and what ends now are kept by how much of the pixel's light each changes.
 
 #include "tile/lanes.glsl"
 #include "tile/work.glsl"
 #define PEELS true
 #define OF_LAYERS true
 #include "tile/surface.glsl"
-#include "tile/ended.glsl"
+#include "tile/stack.glsl"
 #include "inc/normalized.glsl"
 
 layout(constant_id = SPEC_DEPTH_PRELOADED) const bool DEPTH_PRELOADED = false; // opaque things hide what is behind them
 layout(set = 0, binding = BIND_DEPTH_BEFORE) uniform texture2D opaque_depth;
 layout(constant_id = SPEC_STACKED) const bool STACKED = false; // as in layer.frag.glsl
 
-// Of the invocation's pixels.
-vec4 light[ROWS];          // alpha * linear color, alpha
-float weight_before[ROWS]; // of the layer before
-
-// COVERAGE_EDGES: of what ended.
-vec2 ended[ROWS];          // how it falls (tile/ended.glsl)
-float ended_part[ROWS];    // p
-bool ended_away[ROWS];     // whether it faces away
-float light_through[ROWS]; // T_in
-
-// Between dispatches.
-vec4 stored_ended(int row)
-{
-    return vec4(ended[row], ended_away[row] ? -ended_part[row] : ended_part[row], light_through[row]);
-}
-
-void load_ended(vec4 stored, int row)
-{
-    ended[row] = stored.xy;
-    ended_part[row] = abs(stored.z);
-    ended_away[row] = stored.z < 0.0;
-    light_through[row] = stored.w;
-}
+float weight_before[ROWS]; // of the layer before, of the invocation's pixels
 
 void begin_layers()
 {
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-        light[row] = vec4(0.0);
         before[row] = INFINITELY_NEAR;
         before_away[row] = INFINITELY_NEAR;
         weight_before[row] = 0.0;
-        ended[row] = vec2(0.0);
-        ended_part[row] = 1.0;
-        ended_away[row] = false;
-        light_through[row] = 1.0;
+        begin_stack(row);
         opaque[row] = DEPTH_PRELOADED ? texelFetch(opaque_depth, pixel_within_image(row), 0).r : 0.0;
     }
 }
@@ -62,6 +31,7 @@ void begin_surface()
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         visible[row] = 0.0;
         visible_away[row] = false;
+        goes_on_from[row] = NOTHING_LEFT;
         begin_covering(row);
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
@@ -74,33 +44,6 @@ void end_seeing()
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         visible[row] = max(visible[row], opaque[row]);
     }
-}
-
-vec4 under(vec4 light, vec4 layer)
-{
-    return light + (1.0 - light.a) * layer;
-}
-
-// Puts a layer that covers so much of the pixel under the light so far. `shown`: its own light and alpha, where it is.
-void put_part_under(vec4 shown, float part, int row)
-{
-    float left = 1.0 - light[row].a; // T
-    float through = light_through[row];
-    float p = ended_part[row];
-    float behind = visible_away[row] != ended_away[row] ? part_behind(fall[row], ended[row]) : 0.0;
-    float beside = (left - p * through) / max(1.0 - p, 1e-3);
-    float seen = min(part, p) * through + max(part - p, 0.0) * beside;
-    float share = mix(part * left, FORMULA(FORMULA_LAYER_BEHIND, seen), behind);
-    light[row] += share * shown;
-    float changed = p * (1.0 - p) * (left - through);
-    float changes = part * (1.0 - part) * shown.a * left;
-    float keeps = changed / max(changed + changes, 1e-9);
-    float own_through = (1.0 - shown.a) * share / max(part, 1e-6);
-    float kept_through = through * (1.0 - shown.a * mix(part, min(part / max(p, 1e-6), 1.0), behind));
-    light_through[row] = mix(own_through, kept_through, keeps);
-    ended_part[row] = mix(part, p, keeps);
-    ended_away[row] = keeps < 0.5 ? visible_away[row] : ended_away[row];
-    ended[row] = mix(fall[row], ended[row], keeps);
 }
 
 // Shades the surface that was summed, and puts it under the light so far.

@@ -22,6 +22,7 @@ const float NOTHING_LEFT = 0.0;    // no depth is below
 
 // The invocation's pixels, in registers.
 float visible[ROWS]; // depth of the surface, shifted by epsilon
+float goes_on_from[ROWS]; // OF_LAYERS, COVERAGE_EDGES, CURVED: up to this depth a layer may end with which it goes on (tile/stack.glsl)
 float before[ROWS];  // PEELS: depth of the layer before
 bool visible_away[ROWS];  // BY_SIDES: the surface faces away; `before` is of those that do not,
 float before_away[ROWS]; // and this is of those that do
@@ -32,6 +33,9 @@ float opaque[ROWS];  // OF_LAYERS: depth of opaque things
 float polygon[ROWS]; // WITH_POLYGONS: depth of polygons, or of splats, where those are nearer
 vec4 colors[ROWS];   // weighted color, weight
 vec4 normals[ROWS];  // weighted normal; OF_LAYERS: weighted alpha; WITH_DEPTH: weighted depth
+
+// As a part of a layer's own epsilon, how far behind another one it may begin that it goes on with.
+const float SEAM = 0.2;
 
 #if !defined(POLYGON_REACH)
 #define POLYGON_REACH 0.0
@@ -144,6 +148,9 @@ void see(Splat splat, Column column, Kept kept, int row)
     float behind = shifted(depth, shift_of(splat));
     if (BY_SIDES) {
         visible_away[row] = inside && behind > visible[row] ? away : visible_away[row];
+    }
+    if (OF_LAYERS && COVERAGE_EDGES && CURVED) {
+        goes_on_from[row] = inside && behind > visible[row] ? depth + SEAM * (depth - behind) : goes_on_from[row];
     }
     visible[row] = inside ? max(visible[row], behind) : visible[row];
 }

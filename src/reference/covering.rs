@@ -54,8 +54,8 @@ pub(super) struct Covering {
     pub goes_on: f64,
     /// [`left_out`] of all that is drawn with it.
     pub left_out: f64,
-    /// It is seen in layers: what is missing of one may be in the next.
-    pub in_layers: bool,
+    /// It is seen in layers that don't go on with each other: what is missing of one may be in the next.
+    pub alone_in_layers: bool,
     /// It lies at a border, and covers by itself as far as it reaches.
     pub reach: Option<Reach>,
 }
@@ -122,7 +122,7 @@ fn steepness(sum: f64, fall: f64, covering: &Covering) -> f64 {
 /// What falls as steeply as a border ends there, and its sum is right; what does not is inside, and what hardly falls is so for sure, unless an ε has left some of it to the next layer.
 fn whole(sum: f64, steepness: f64, alone: f64, covering: &Covering) -> f64 {
     let a = sum.min(1.0);
-    let steepness = if covering.in_layers { steepness.max(NOT_FLAT) } else { steepness };
+    let steepness = if covering.alone_in_layers { steepness.max(NOT_FLAT) } else { steepness };
     let ends = smooth_step((steepness - NOT_FLAT) / 0.35) * smooth_step((0.92 - a) / 0.1);
     let whole = FLAT_SUM + (WHOLE_SUM - FLAT_SUM) * smooth_step((steepness - 0.25) / 0.2);
     let inside = if a < 0.5 { a } else { 0.5 + 0.5 * (a - 0.5) / (whole - 0.5) };

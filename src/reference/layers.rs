@@ -9,7 +9,7 @@ use super::drawn_clip::Kept;
 use super::fragment::Fragment;
 use super::shade::Shader;
 use super::splat::DrawnSplat;
-use super::stack::Stack;
+use super::stack::{Extent, Stack};
 use super::surface::{Attributes, Sums, direction};
 use super::transition::{Premultiplied, Splatted, join};
 use super::triangle::DrawnTriangle;
@@ -111,7 +111,7 @@ impl Transparent<'_> {
             if stack.layers < surfaces {
                 let shown = self.surface(ray, &layer);
                 match self.covers_in_part {
-                    true => stack.put_part_behind(shown, self.ending(&layer)),
+                    true => stack.put_part_behind(shown, self.extent(&layer)),
                     false => stack.put_behind(shown),
                 }
                 stack.margin = stack.margin.min(margin);
@@ -160,15 +160,22 @@ impl Transparent<'_> {
         covered(&fragments.iter().collect::<Vec<_>>(), |fragment| self.splat_of(fragment))
     }
 
-    /// The same of fragments of one side, how that falls toward where it ends, and whether it faces away.
-    fn ending(&self, layer: &[Translucent]) -> (f64, DVec2, bool) {
+    /// Where fragments of one side lie, and what they cover.
+    fn extent(&self, layer: &[Translucent]) -> Extent {
         let splat_of = |fragment: &Translucent| self.splat_of(fragment);
         let fragments: Vec<_> = layer.iter().collect();
-        (
-            covered(&fragments, splat_of),
-            fall(&fragments, splat_of),
-            layer.iter().any(|of| splat_of(of).faces_away),
-        )
+        let begin = layer.iter().min_by(|a, b| a.z_shifted.total_cmp(&b.z_shifted));
+        let (z, z_shifted) = begin.map_or((0.0, 0.0), |begin| (begin.z, begin.z_shifted));
+        Extent {
+            part: covered(&fragments, splat_of),
+            fall: fall(&fragments, splat_of),
+            faces_away: layer.iter().any(|of| splat_of(of).faces_away),
+            z,
+            z_shifted,
+            is_sharp: layer
+                .iter()
+                .any(|of| splat_of(of).covering.as_ref().is_some_and(|of| !of.alone_in_layers)),
+        }
     }
 
     fn splat_of(&self, fragment: &Translucent) -> &DrawnSplat {

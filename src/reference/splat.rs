@@ -279,7 +279,7 @@ fn prepare_one(
             h_px: view.focal_px * h,
             goes_on: sharp.filter(|_| !is_layered).map_or(0.0, |sharp| sharp.goes_on()),
             left_out,
-            in_layers: opacity == Opacity::Transparent,
+            alone_in_layers: opacity == Opacity::Transparent && left_out > 0.0,
             reach,
         }),
         least_weight: settings.floors().weight,

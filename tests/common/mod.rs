@@ -3,6 +3,7 @@
 
 #![allow(dead_code, unused_imports, reason = "each test binary uses its own part")]
 
+pub mod bent;
 pub mod cases;
 pub mod faults;
 pub mod host;

@@ -13,7 +13,9 @@ use std::rc::Rc;
 use glam::DVec3;
 
 use common::{
-    ALL, PICTURE, oracle_of, passes, render_as,
+    ALL, PICTURE,
+    bent::bent,
+    oracle_of, passes, render_as,
     scenes::{self, Hard, transparent},
     shared, sheets, with, with_points_up_to,
 };
@@ -190,9 +192,13 @@ fn every_formula_of_clip_curves_is_seen() {
     let clipped = with(&scenes::clipped(), |settings| {
         (settings.edges, settings.rasterizer) = (Edges::Coverage, Rasterizer::Compute);
     });
-    assert_seen(&mut shared(), &with_oracles([clipped]), &Formula::OF_CLIPS, &|headless, hard, oracle| {
-        light(&render_as(headless, hard, PICTURE), hard, oracle)
-    });
+    let bent = with(&bent(24, 4), |settings| settings.size_px = [200, 200]);
+    assert_seen(
+        &mut shared(),
+        &with_oracles([clipped, bent]),
+        &Formula::OF_CLIPS,
+        &|headless, hard, oracle| light(&render_as(headless, hard, PICTURE), hard, oracle),
+    );
 }
 
 #[test]

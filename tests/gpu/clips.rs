@@ -188,33 +188,6 @@ fn what_is_behind_large_splats_is_not_seen_through_them() {
     }
 }
 
-/// A closed and convex part of which half of the light goes through each surface: a quarter goes through both, wherever one looks. What a pixel has of one surface is one layer, from however
-/// flat a side it is seen; on a flat side it was two or more in streaks, whose slivers are narrower than the filter.
-#[test]
-fn a_transparent_part_has_two_surfaces_and_no_streaks() {
-    let mut headless = shared();
-    let (mut splats, report) =
-        sharp_splats(&parts::cylinder(64, 1, 2.0), &SharpOptions::default(), &()).unwrap();
-    splats.colors = Colors::Uniform([1.0, 1.0, 1.0, 0.5]);
-    let object = Object { name: String::new(), splats, closed: report.closed };
-    for eye in [[0.4, 3.9, 2.0], [2.5, 1.8, 4.3], [0.3, 1.5, 4.5]] {
-        let mut hard = with(&scenes::clipped(), |settings| {
-            settings.rasterizer = Rasterizer::Compute;
-            settings.edges = Edges::Coverage;
-            settings.layers = Layers::Fixed(6);
-            settings.shading = Shading::Albedo;
-            settings.background = None;
-        });
-        hard.camera = builder::camera(eye, [0.0; 3]);
-        hard.scene = Scene { objects: vec![object.clone()], ..Scene::default() };
-        let frame = render_as(&mut headless, &hard, PICTURE);
-        let alphas = || frame.linear.iter().map(|color| color[3]);
-        let (seen, darker) = (alphas().filter(|a| *a > 0.7).count(), alphas().filter(|a| *a > 0.78).count());
-        println!("{eye:?}: {darker} of {seen} are darker");
-        assert!(seen > 3000 && darker < seen / 100, "{eye:?}: {darker} of {seen}");
-    }
-}
-
 /// Far more of them in one tile than one dispatch has iterations for, of which llvmpipe ends the rest without a word.
 #[test]
 fn of_very_many_clipped_splats_in_one_tile_none_is_left_out() {

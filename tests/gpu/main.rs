@@ -50,5 +50,6 @@ mod selftest;
 mod stability;
 mod tiles;
 mod transparency;
+mod transparent_parts;
 mod validation;
 mod vertex_splats;

@@ -70,6 +70,7 @@ pub enum Formula {
     Reach,
     BorderDistance,
     LayerBehind,
+    LayerBeside,
 }
 
 impl Formula {
@@ -94,9 +95,16 @@ impl Formula {
     /// Those of splats at borders, where these cover pixels in part.
     pub const OF_BORDERS: [Self; 2] = [Self::Reach, Self::BorderDistance];
 
-    /// Those of clip curves; the last four of them where these cover pixels in part.
-    pub const OF_CLIPS: [Self; 6] =
-        [Self::ClipLine, Self::ClipCurve, Self::ClipRamp, Self::Crease, Self::SharpSum, Self::Outlined];
+    /// Those of clip curves; the last five of them where these cover pixels in part.
+    pub const OF_CLIPS: [Self; 7] = [
+        Self::ClipLine,
+        Self::ClipCurve,
+        Self::ClipRamp,
+        Self::Crease,
+        Self::SharpSum,
+        Self::Outlined,
+        Self::LayerBeside,
+    ];
 
     /// That of planes that cut what is seen.
     pub const OF_PLANES: [Self; 1] = [Self::Plane];

@@ -31,7 +31,7 @@ fn state_bytes(edges: Edges) -> u64 {
     u64::from(TILE_WIDTH * MOST_TILE_HEIGHT * (STATE_VECTORS + of_edges) * 16)
 }
 
-/// Depth and weight of the layer before, and the depth of the last one that faces away, between dispatches; and where edges cover pixels in part, what ended.
+/// Depth and weight of the layer before, the depth of the last one that faces away, and what layers of one surface cover, between dispatches; and where edges cover pixels in part, what ended.
 const PEELED_FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
 /// What depends on the scene beside the splats.
