@@ -44,10 +44,11 @@ pub fn ready(
         let splats: u64 = files.iter().map(|file| file.header().splats).sum();
         let share = octrees.points() as f64 / (octrees.points() + splats) as f64;
         let most = arguments.budget_memory.map(|most| (most as f64 * share) as u64);
-        arguments.budget_memory = arguments.budget_memory.zip(most).map(|(all, own)| all - own);
-        steps.time("read nodes", || {
+        let taken = steps.time("read nodes", || {
             bars.held(|| octrees.read(scene, inputs, (camera, settings), most, bars))
         })?;
+        // What they leave is for the others.
+        arguments.budget_memory = arguments.budget_memory.map(|all| all.saturating_sub(taken));
     }
     let arguments = &arguments;
     let mut asked = settings.clone();

@@ -3,28 +3,29 @@
 use clap::Args;
 use surfel::{
     Progress as _, Result,
-    compose::refuse_triangles,
+    compose::{is_in_levels, open_levels},
     geometry::FoundUp,
-    levels_file::{HOST_BYTES, LevelsFile, PageView, VERSION, is_levels_file},
+    levels_file::{HOST_BYTES, LevelsFile, PageView, VERSION, load_together},
     load::ObjectDescription,
     notes::counted,
     passes::count_drawn,
     report::{InputReport, ModelReport},
-    scene::{Ball, Budget, Camera, LeveledObject, Lod, Scene, Settings},
+    scene::{Ball, Budget, Camera, LeveledObject, Lod, Opacity, Scene, Settings},
 };
 
 use crate::{
     console::{self, Bars},
+    described::describe,
     inputs::Inputs,
     octrees::Octrees,
     parse,
-    scene::{Loaded, load_scene, refuse_losses},
+    scene::{Loaded, load_described, refuse_losses},
 };
 
 /// The memory for them.
 #[derive(Clone, Copy, Args)]
 pub struct HierarchyArguments {
-    /// So much memory for what is read of .surfel files, COPC and Potree on its way to the device, such as 256MB: what is drawn is coarser where that does not
+    /// So much memory for what is read of all .surfel files, COPC and Potree together on its way to the device, such as 256MB: what is drawn is coarser where that does not
     /// suffice, and a line says so [default: what --lod asks for]
     #[arg(long, value_name = "BYTES", value_parser = parse::bytes(1 << 20), allow_hyphen_values = true)]
     pub budget_memory: Option<u64>,
@@ -69,44 +70,30 @@ fn load_by_view(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     Ok(loaded)
 }
 
-/// As [`load_scene`], of inputs of which some may be hierarchies: these are opened, and said what they hold.
+/// As [`crate::scene::load_scene`], of inputs of which some, or objects of whose scene files, may be hierarchies: these are opened, and said what they hold.
 ///
 /// # Errors
-/// As [`load_scene`], [`refuse_triangles`] and [`LevelsFile::open`].
+/// As [`describe`], [`open_levels`] and [`load_described`].
 pub fn load_scene_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     bars.held(|| load_with_hierarchies(inputs, bars))
 }
 
 fn load_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
-    let is_hierarchy = |path: &std::path::PathBuf| is_levels_file(path);
-    let (hierarchies, others): (Vec<_>, Vec<_>) = inputs.files.iter().cloned().partition(is_hierarchy);
-    if hierarchies.is_empty() {
-        return load_scene(inputs, bars);
-    }
-    let Inputs { representation, samples, .. } = *inputs;
-    for path in &hierarchies {
-        let object = ObjectDescription { representation, samples, ..ObjectDescription::of_file(path) };
-        refuse_triangles(&object, "splats")?;
-    }
-    let opened = hierarchies.iter().map(|path| LevelsFile::open(path)).collect::<Result<Vec<_>>>()?;
-    let mut loaded = match others.is_empty() {
-        true => None,
-        false => Some(load_scene(&Inputs { files: others, ..inputs.clone() }, bars)?),
-    };
-    for file in opened {
-        let (ball, mut report) = (file.ball(), report(&file));
+    let mut described = describe(inputs, bars)?;
+    let (hierarchies, objects) = described.objects.into_iter().partition(is_in_levels);
+    described.objects = objects;
+    let hierarchies: Vec<ObjectDescription> = hierarchies;
+    let opened = hierarchies.iter().map(open_levels).collect::<Result<Vec<_>>>()?;
+    let mut loaded = load_described(described, opened, inputs, bars)?;
+    for file in &loaded.hierarchies {
+        let mut report = report(file);
         tell_of(&mut report, inputs, bars)?;
-        let up = file
-            .header()
-            .up
-            .map(|direction| FoundUp { direction, because: format!("{} says so", report.name) });
-        let loaded = loaded.get_or_insert_with(|| Loaded::of_nothing(ball));
-        loaded.ball = loaded.ball.union(ball);
+        let up = file.header().up;
+        let up = up.map(|direction| FoundUp { direction, because: format!("{} says so", report.name) });
         loaded.up = loaded.up.take().or(up);
         loaded.inputs.push(report);
-        loaded.hierarchies.push(file);
     }
-    loaded.map_or_else(|| load_scene(inputs, bars), Ok)
+    Ok(loaded)
 }
 
 /// Tells what a file holds that was opened, and what of the command line is of no use for it.
@@ -128,7 +115,12 @@ fn report(file: &LevelsFile) -> InputReport {
     let header = file.header();
     let kind = if header.ellipses { "ellipses" } else { "disks" };
     let closed = if header.closed { ", closed" } else { "" };
-    let name = surfel::load::file_name(file.path());
+    let name = file.name().to_owned();
+    let opacity = match header.opacity() {
+        Opacity::Opaque => "",
+        Opacity::Transparent => "; transparent",
+        Opacity::Invisible => "; invisible, alpha 0",
+    };
     let (splats, nodes, pages) = (header.splats, header.nodes, header.pages);
     InputReport {
         vertices: None,
@@ -150,15 +142,17 @@ fn report(file: &LevelsFile) -> InputReport {
             up: header.up.map(|up| up.to_array()),
         }),
         notes: Vec::new(),
-        summary: format!("{name}: {splats} {kind}{closed}; {nodes} nodes above them, in {pages} pages"),
+        summary: format!(
+            "{name}: {splats} {kind}{closed}; {nodes} nodes above them, in {pages} pages{opacity}"
+        ),
         name,
     }
 }
 
-/// Reads what this process needs for a view of each file, and gives the settings for which it suffices. Files share the memory by the number of their splats.
+/// Reads what this process needs for a view of all files, within one memory, and gives the settings for which that suffices.
 ///
 /// # Errors
-/// As [`LevelsFile::load`].
+/// As [`load_together`].
 pub fn load(
     files: &mut [LevelsFile],
     scene: &mut Scene,
@@ -228,32 +222,18 @@ fn load_for(
     readers: Readers,
     bars: &Bars,
 ) -> Result<Read> {
-    let view = |tau_px: f64| {
-        let view = PageView::new(camera, settings.size_px, tau_px)
-            .with_blended(settings.blended_size())
-            .with_readers(readers.number, readers.count);
-        if settings.budget == Budget::Unlimited { view } else { view.with_coarser() }
-    };
-    let all: u64 = files.iter().map(|file| file.header().splats).sum();
-    let (mut tau_px, mut wanted_bytes) = (asked_px, 0);
-    let mut read = Vec::new();
-    for file in files.iter_mut() {
-        let share = file.header().splats as f64 / all.max(1) as f64;
-        let of_budget = |budget: u64| (budget as f64 * share) as u64;
-        let budget = arguments.budget_memory.map_or(u64::MAX, of_budget);
-        let chosen = file.load(Some(&view(tau_px)), budget, bars);
-        bars.clear();
-        let chosen = chosen?;
-        tau_px = chosen.tau_px;
-        wanted_bytes = wanted_bytes.max((chosen.wanted_bytes as f64 / share) as u64);
-        read.push(chosen);
-    }
+    let view = PageView::new(camera, settings.size_px, asked_px)
+        .with_blended(settings.blended_size())
+        .with_readers(readers.number, readers.count);
+    let view = if settings.budget == Budget::Unlimited { view } else { view.with_coarser() };
+    let most_bytes = arguments.budget_memory.unwrap_or(u64::MAX);
+    let read = load_together(files, &view, most_bytes, bars);
+    bars.clear();
+    let read = read?;
+    let (tau_px, wanted_bytes) =
+        read.first().map_or((asked_px, 0), |chosen| (chosen.tau_px, chosen.wanted_bytes));
     let (mut objects, mut lines) = (Vec::new(), Vec::new());
-    for (file, mut chosen) in files.iter_mut().zip(read) {
-        // One τ for all: what was read for a smaller one lacks the nodes for this.
-        if chosen.tau_px < tau_px {
-            chosen = file.load(Some(&view(tau_px)), u64::MAX, bars)?;
-        }
+    for (file, chosen) in files.iter().zip(read) {
         let name = &chosen.object.name;
         let (splats, nodes) = (chosen.object.leaves.len(), chosen.object.nodes.len());
         let all = file.header().pages;

@@ -8,6 +8,7 @@ mod camera;
 mod compare;
 mod console;
 mod convert;
+mod described;
 mod device;
 mod drawing;
 mod emptiness;

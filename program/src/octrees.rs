@@ -61,8 +61,8 @@ impl Octrees {
         self.files.iter().map(PointOctree::points).sum()
     }
 
-    /// Reads what a view needs of each, in the place of what was read before, within so much memory. `reports` are those of all inputs, of which the
-    /// last ones are theirs.
+    /// Reads what a view needs of each, in the place of what was read before, within so much memory; the bytes that it takes of that. `reports` are those of all inputs, of
+    /// which the last ones are theirs.
     ///
     /// # Errors
     /// Of the files; with `strict`, what is not drawn as they say it.
@@ -73,16 +73,17 @@ impl Octrees {
         (camera, settings): (&Camera, &Settings),
         most_bytes: Option<u64>,
         bars: &Bars,
-    ) -> Result<()> {
+    ) -> Result<u64> {
         let own = [scene.objects.len(), reports.len().saturating_sub(self.files.len())];
         let [objects, inputs] = *self.others.get_or_insert(own);
         scene.objects.truncate(objects);
         reports.truncate(inputs);
-        let all = self.points();
+        let (all, mut taken) = (self.points(), 0_u64);
         for octree in &mut self.files {
             let share = |most: u64| (most as f64 * (octree.points() as f64 / all.max(1) as f64)) as u64;
             let nodes = choose(octree, (camera, settings), most_bytes.map(share))?;
             let (points, bytes) = octree.size_of(&nodes);
+            taken = taken.saturating_add(points.saturating_mul(BYTES_PER_POINT));
             let name = file_name(octree.path());
             bars.note(&format!(
                 "{name}: read {} nodes, {points} of {} points, {bytes} bytes",
@@ -103,7 +104,7 @@ impl Octrees {
             reports.push(built.report);
             scene.objects.extend(built.splats);
         }
-        Ok(())
+        Ok(taken)
     }
 }
 

@@ -5,24 +5,22 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Progress as _, Result,
-    compose::{ball_of_target, build, resampled},
+    compose::{build, resampled},
     geometry::{FoundUp, up_of_shape},
     levels_file::LevelsFile,
-    load::{
-        BuiltIn, Model, ObjectDescription, PictureDescription, Representation, Samples, Source, check_there,
-        file_name, is_scene_file, load_scene_file,
-    },
+    load::{Model, PictureDescription, Samples, Source, file_name},
     prepare::PreparedScene,
     renderer::Headless,
     report::{InputReport, Step},
-    scene::{Ball, Bounds, CameraParts, Light, Mesh, Object, Scene},
+    scene::{Ball, Bounds, CameraParts, Mesh, Object, Scene},
 };
 
 use crate::{
     console::{Bars, Repeated},
+    described::{Described, describe},
     inputs::Inputs,
     octrees::Octrees,
-    oddities, unused, up,
+    oddities, up,
 };
 
 /// A scene with its extent and where it came from.
@@ -66,14 +64,22 @@ impl Loaded {
 /// drawn as `inputs` says, but for those of scene files, which say it themselves.
 ///
 /// # Errors
-/// As [`load_scene_file`] and [`build`]; two scene files that both have a camera; with `strict`, anything that is not drawn as
-/// its file says it.
+/// As [`describe`] and [`load_described`].
 pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
-    bars.held(|| load_all(inputs, bars))
+    bars.held(|| load_described(describe(inputs, bars)?, Vec::new(), inputs, bars))
 }
 
-fn load_all(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
-    let Described { objects, lights, camera, picture: (_, picture) } = describe(inputs, bars)?;
+/// Loads what is described, beside files that views read, of which something is told elsewhere.
+///
+/// # Errors
+/// As [`build`]; a camera that looks at an object that is not there; with `strict`, anything that is not drawn as its file says it.
+pub fn load_described(
+    described: Described,
+    hierarchies: Vec<LevelsFile>,
+    inputs: &Inputs,
+    bars: &Bars,
+) -> Result<Loaded> {
+    let Described { objects, lights, camera, picture: (_, picture) } = described;
     let mut steps = Vec::new();
     let mut ups = Vec::new();
     let mut lines = Repeated::default();
@@ -89,22 +95,14 @@ fn load_all(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     if inputs.strict {
         reports.iter().try_for_each(refuse_losses)?;
     }
-    let whole = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
-    let ball = oddities::seen(&scene, &whole, bars);
+    let seen = scene.ball().map(|whole| oddities::seen(&scene, &whole, bars));
+    let ball = seen.into_iter().chain(hierarchies.iter().map(LevelsFile::ball)).reduce(Ball::union);
+    let ball = ball.ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
     let is_of_files = objects.iter().any(|object| matches!(object.source, Source::File(_)));
     let up = up::of(ups, bars).or_else(|| is_of_files.then(|| up_of_shape(&scene)).flatten());
-    let camera = camera.map(|camera| camera.of(&scene)).transpose()?;
-    Ok(Loaded {
-        scene,
-        ball,
-        camera,
-        picture,
-        up,
-        inputs: reports,
-        steps,
-        hierarchies: Vec::new(),
-        octrees: Octrees::default(),
-    })
+    let camera = camera.map(|camera| camera.of(&scene, &hierarchies)).transpose()?;
+    let octrees = Octrees::default();
+    Ok(Loaded { scene, ball, camera, picture, up, inputs: reports, steps, hierarchies, octrees })
 }
 
 /// Refuses what is not drawn as its file says it.
@@ -149,99 +147,6 @@ pub fn resample_mesh(
         ErrorKind::Input { problem, .. } => Error::input(path, "", problem),
         _ => error,
     })
-}
-
-/// The descriptions in the inputs.
-#[derive(Default)]
-struct Described {
-    objects: Vec<ObjectDescription>,
-    lights: Vec<Light>,
-    camera: Option<DescribedCamera>,
-    /// With the file that says it.
-    picture: (PathBuf, PictureDescription),
-}
-
-/// What a scene file says of the camera.
-struct DescribedCamera {
-    file: PathBuf,
-    parts: CameraParts,
-    /// The object that it looks at.
-    object: Option<String>,
-}
-
-impl DescribedCamera {
-    /// With the place of the object.
-    fn of(self, scene: &Scene) -> Result<(PathBuf, CameraParts)> {
-        let Some(name) = &self.object else { return Ok((self.file, self.parts)) };
-        let subject = Some(ball_of_target(scene, name, &self.file)?);
-        Ok((self.file, CameraParts { subject, ..self.parts }))
-    }
-}
-
-fn describe(inputs: &Inputs, bars: &Bars) -> Result<Described> {
-    let mut described = Described::default();
-    let (representation, samples) = (inputs.representation, inputs.samples);
-    let built_in = "the built-in model is made of splats; expected an input";
-    match (inputs.files.is_empty(), representation, samples) {
-        (true, Representation::Mesh | Representation::Hybrid { .. }, _) => {
-            let name = if representation == Representation::Mesh { "mesh" } else { "hybrid" };
-            return Err(Error::option("--representation", format!("{name}: {built_in}")));
-        }
-        (true, _, Some(_)) => return Err(Error::option("--resample", built_in)),
-        (_, Representation::Mesh, Some(_)) => {
-            let problem =
-                "has no meaning for meshes that are drawn as triangles; expected no --representation mesh";
-            return Err(Error::option("--resample", problem));
-        }
-        (true, ..) if inputs.options.columns.is_some() => {
-            return Err(Error::option("--columns", built_in));
-        }
-        (true, ..) => described.objects.push(ObjectDescription::of_built_in(BuiltIn::Relief)),
-        _ => {}
-    }
-    if let (Some(file), options @ [_, ..]) =
-        (inputs.files.iter().find(|file| is_scene_file(file)), &inputs.not_for_scene_files[..])
-    {
-        let options = unused::joined(options);
-        bars.note(&format!(
-            "{}: without {options}, as the keys of its objects say how they are drawn",
-            file_name(file)
-        ));
-    }
-    for path in &inputs.files {
-        if !is_scene_file(path) {
-            let object = ObjectDescription::of_file(path);
-            described.objects.push(ObjectDescription { representation, samples, ..object });
-            continue;
-        }
-        let file = load_scene_file(path, &inputs.options)?;
-        described.objects.extend(file.objects);
-        described.lights.extend(file.lights);
-        if file.picture != PictureDescription::default() {
-            let (other, said) = &described.picture;
-            if *said != PictureDescription::default() {
-                let problem = format!("{} has some too; expected them in one file", other.display());
-                return Err(Error::input(path, "epsilon, background, shading or clips", problem));
-            }
-            described.picture = (file.path.clone(), file.picture);
-        }
-        if let Some(parts) = file.camera {
-            if let Some(other) = &described.camera {
-                let problem = format!("{} has one too; expected one camera", other.file.display());
-                return Err(Error::input(path, "camera", problem));
-            }
-            described.camera = Some(DescribedCamera { file: file.path, parts, object: file.camera_target });
-        }
-    }
-    let files = described.objects.iter().filter_map(|object| match &object.source {
-        Source::File(path) => Some(path.as_path()),
-        _ => None,
-    });
-    if inputs.options.columns.is_some() && files.clone().next().is_none() {
-        bars.note("without --columns, as no object is of a file");
-    }
-    files.into_iter().try_for_each(check_there)?;
-    Ok(described)
 }
 
 #[cfg(test)]

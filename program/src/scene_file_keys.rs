@@ -23,7 +23,8 @@ clip_box, clip_planes      as the options: six numbers; arrays of four
   intensity = 1            multiplies the color as linear light, at least 0
 [[object]]                 at least one, at most 1024
   file                     any model or scan that `surfel info` reads, in the scene file's folder
-                           or below, links followed (--allow-outside: anywhere); or
+                           or below, links followed (--allow-outside: anywhere); .surfel for
+                           render, view and info, as splats alone and without epsilon; or
   builtin                  \"relief\", \"sphere\" (of radius 1) or \"checkerboard\"
   splats                   of a builtin; 150000, 20000 and 10000 of these; a hybrid has a share
                            for the area of its splats

@@ -8,6 +8,7 @@ mod facts;
 mod from_mesh;
 mod from_points;
 mod hybrid;
+mod levels;
 mod memory;
 mod object;
 mod parts;
@@ -17,6 +18,7 @@ mod words;
 use std::path::Path;
 
 pub use from_mesh::resampled;
+pub use levels::{is_in_levels, open_levels};
 pub use memory::check_memory;
 pub use object::{BuiltObject, make, make_loaded, make_model, refuse_triangles};
 pub use sharp::sharpened;

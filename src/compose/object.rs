@@ -124,7 +124,7 @@ impl Opened {
     }
 }
 
-fn name_of(object: &ObjectDescription) -> String {
+pub(super) fn name_of(object: &ObjectDescription) -> String {
     let own = || match &object.source {
         Source::File(path) => file_name(path),
         Source::BuiltIn { model, .. } => format!("built-in {}", model.name()),

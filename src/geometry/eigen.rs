@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 const MOST_SWEEPS: usize = 12;
 
 /// Eigenvalues, rising, and their unit eigenvectors. NaN in, NaN or anything out.
-pub(super) fn eigen(matrix: &DMat3) -> ([f64; 3], [DVec3; 3]) {
+pub(crate) fn eigen(matrix: &DMat3) -> ([f64; 3], [DVec3; 3]) {
     let mut a = matrix.transpose().to_cols_array_2d();
     let mut vectors = [DVec3::X, DVec3::Y, DVec3::Z];
     for _ in 0..MOST_SWEEPS {

@@ -46,7 +46,7 @@ pub struct PageView {
     reader: [u32; 2],
 }
 
-/// Pages, in the order of the file, and for which τ.
+/// Pages, in the order in which they came, and for which τ.
 pub(super) struct Choice {
     pub pages: Vec<usize>,
     pub tau_px: f64,
@@ -55,8 +55,8 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    pub fn all(pages: &[PageEntry]) -> Self {
-        let wanted_bytes = pages.iter().map(PageEntry::host_bytes).sum();
+    pub fn all(pages: &[&PageEntry]) -> Self {
+        let wanted_bytes = pages.iter().map(|page| page.host_bytes()).sum();
         Self { pages: (0..pages.len()).collect(), tau_px: 0.0, wanted_bytes }
     }
 }
@@ -98,12 +98,12 @@ impl PageView {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`] where it suffices for none.
-    pub(super) fn choose(&self, pages: &[PageEntry], most_bytes: u64) -> Result<Choice> {
-        let seen: Vec<usize> = (0..pages.len()).filter(|i| self.sees(&pages[*i])).collect();
+    pub(super) fn choose(&self, pages: &[&PageEntry], most_bytes: u64) -> Result<Choice> {
+        let seen: Vec<usize> = (0..pages.len()).filter(|i| self.sees(pages[*i])).collect();
         let (mut tau_px, mut wanted_bytes) = (self.tau_px, None);
         loop {
             let is_needed = |page: &PageEntry| self.draws_of(page, tau_px);
-            let needed: Vec<usize> = seen.iter().copied().filter(|i| is_needed(&pages[*i])).collect();
+            let needed: Vec<usize> = seen.iter().copied().filter(|i| is_needed(pages[*i])).collect();
             let (own, bytes) = self.shared(pages, needed);
             let wanted_bytes = *wanted_bytes.get_or_insert(bytes);
             if bytes <= most_bytes {
@@ -119,8 +119,8 @@ impl PageView {
     }
 
     /// What is needed for τ and for each size that is twice the one before, up to the one at which all of it is one splat.
-    pub(super) fn rungs(&self, pages: &[PageEntry]) -> Vec<Rung> {
-        let seen: Vec<usize> = (0..pages.len()).filter(|i| self.sees(&pages[*i])).collect();
+    pub(super) fn rungs(&self, pages: &[PageEntry], is_seen: impl Fn(usize) -> bool) -> Vec<Rung> {
+        let seen: Vec<usize> = (0..pages.len()).filter(|i| is_seen(*i) && self.sees(&pages[*i])).collect();
         let sizes = std::iter::successors(Some(self.tau_px), |tau_px| {
             (*tau_px <= LARGEST_PX).then_some((2.0 * tau_px).max(LEAST_PX))
         });
@@ -133,7 +133,7 @@ impl PageView {
 
     /// What this reader reads of some pages, and how much memory the one takes who takes most. One page after the other goes to who has least so
     /// far, so that all of them have as much, in every part of the view.
-    fn shared(&self, pages: &[PageEntry], needed: Vec<usize>) -> (Vec<usize>, u64) {
+    fn shared(&self, pages: &[&PageEntry], needed: Vec<usize>) -> (Vec<usize>, u64) {
         let [reader, readers] = self.reader;
         let mut bytes = vec![0_u64; readers as usize];
         let mut own = Vec::new();

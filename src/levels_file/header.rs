@@ -69,7 +69,11 @@ const HAS_UP: u32 = 16;
 impl Header {
     /// How much the object hides.
     pub fn opacity(&self) -> Opacity {
-        if self.transparent { Opacity::Transparent } else { Opacity::Opaque }
+        match (self.color, self.transparent) {
+            (Some([.., 0.0]), true) => Opacity::Invisible,
+            (_, true) => Opacity::Transparent,
+            (_, false) => Opacity::Opaque,
+        }
     }
 
     /// Bytes of the whole file.
@@ -167,20 +171,7 @@ impl Header {
         if self.splats == 0 || self.nodes >= self.splats {
             return Err(format!("{} splats below {} nodes; expected more splats", self.splats, self.nodes));
         }
-        let places = [self.origin, self.bounds[0], self.bounds[1]];
-        // NaN is in no range.
-        let is_near =
-            |place: &DVec3| place.to_array().iter().all(|x| (-3.0 * LARGEST..=3.0 * LARGEST).contains(x));
-        let [least, most] = self.bounds;
-        if !places.iter().all(is_near) || !least.cmple(most).all() {
-            return Err(format!("within {least} to {most} around {}; expected finite bounds", self.origin));
-        }
-        let lengths = [(self.radius, 0.0), (self.root_radius, 0.0), (self.overlap, LEAST_OVERLAP)];
-        if let Some((length, least)) =
-            lengths.into_iter().find(|(length, least)| !(*least..=100.0 * LARGEST).contains(length))
-        {
-            return Err(format!("a length or a sum of weights of {length}; expected {least} at least"));
-        }
+        self.check_places()?;
         let is_color = |color: &[f32; 4]| color.iter().all(|value| value.is_finite());
         if self.color.is_some_and(|color| !is_color(&color)) {
             return Err("a color that is not finite".to_owned());
@@ -190,6 +181,26 @@ impl Header {
                 Err(format!("{up} as up; expected a unit vector"))
             }
             _ => Ok(()),
+        }
+    }
+
+    /// # Errors
+    /// What is beyond what numbers are for, in words.
+    pub(super) fn check_places(&self) -> Result<(), String> {
+        let places = [self.origin, self.bounds[0], self.bounds[1]];
+        // NaN is in no range.
+        let is_near =
+            |place: &DVec3| place.to_array().iter().all(|x| (-3.0 * LARGEST..=3.0 * LARGEST).contains(x));
+        let [least, most] = self.bounds;
+        if !places.iter().all(is_near) || !least.cmple(most).all() {
+            return Err(format!("within {least} to {most} around {}; expected finite bounds", self.origin));
+        }
+        let lengths = [(self.radius, 0.0), (self.root_radius, 0.0), (self.overlap, LEAST_OVERLAP)];
+        match lengths.into_iter().find(|(length, least)| !(*least..=100.0 * LARGEST).contains(length)) {
+            Some((length, least)) => {
+                Err(format!("a length or a sum of weights of {length}; expected {least} at least"))
+            }
+            None => Ok(()),
         }
     }
 }

@@ -33,15 +33,15 @@ pub struct Standing {
 }
 
 impl Ladder {
-    /// That of some views, of whose rungs any of one height take `most_bytes` of memory together at most, a page as many as `bytes` says. Where that does not suffice
+    /// That of some views of those of these pages that are seen, of whose rungs any of one height take `most_bytes` of memory together at most, a page as many as `bytes` says. Where that does not suffice
     /// for what they ask for, all of them become coarser alike.
     pub fn new(
         views: &[PageView],
-        pages: &[PageEntry],
+        (pages, is_seen): (&[PageEntry], impl Fn(usize) -> bool),
         most_bytes: u64,
         bytes: impl Fn(&PageEntry) -> u64,
     ) -> Self {
-        let all: Vec<Vec<Rung>> = views.iter().map(|view| view.rungs(pages)).collect();
+        let all: Vec<Vec<Rung>> = views.iter().map(|view| view.rungs(pages, &is_seen)).collect();
         let most = all.iter().map(Vec::len).max().unwrap_or(0);
         let mut views = vec![Vec::new(); all.len()];
         for height in 0..most {

@@ -14,14 +14,17 @@ mod choose;
 mod external;
 mod header;
 mod ladder;
+mod object;
 mod page;
 mod page_bounds;
 mod pager;
 mod part;
+mod placed;
 mod read;
 mod table;
 #[cfg(test)]
 mod tests;
+mod together;
 mod write;
 mod write_object;
 
@@ -29,9 +32,11 @@ pub use choose::PageView;
 pub use external::{LEAST_MEMORY, convert_splats, fits};
 pub use header::Header;
 pub use ladder::{Ladder, Rung, Standing};
-pub use pager::{Arrived, Pager};
+pub use pager::{Arrived, PagedFile, Pager};
+pub use placed::Placed;
 pub use read::{Chosen, LevelsFile, is_levels_file};
 pub use table::{HOST_BYTES, PageEntry, Reach};
+pub use together::load_together;
 pub use write_object::{Facts, Written, write_object};
 
 /// The most splats of a page: the number of a ball in it has 16 bits.

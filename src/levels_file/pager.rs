@@ -1,9 +1,10 @@
-//! Pages read in the background: a host says which it wants, in which order, and takes those that have arrived.
+//! Pages of one file or several read in the background: a host says which it wants, in which order, and takes those that have arrived.
 
 use std::{
-    collections::{BTreeSet, VecDeque},
+    collections::{BTreeMap, BTreeSet, VecDeque},
     io::{Read, Seek},
-    path::{Path, PathBuf},
+    ops::Range,
+    path::PathBuf,
     sync::{
         Arc, Condvar, Mutex, MutexGuard, PoisonError,
         mpsc::{Receiver, SyncSender, TryRecvError, sync_channel},
@@ -13,8 +14,9 @@ use std::{
 
 use super::{
     header::Header,
+    object::{add, empty_object},
     page::Page,
-    read::{LevelsFile, add, empty_object},
+    read::LevelsFile,
     table::PageEntry,
 };
 use crate::{
@@ -25,10 +27,9 @@ use crate::{
 /// So many pages wait at most until the host takes them; then reading waits. With the one that is being read they are all that the host's memory holds.
 const MOST_WAITING: usize = 8;
 
-/// A file of which a thread reads pages.
+/// Files of which a thread reads pages, each at a number of its own: those of the first file, then those of the next.
 pub struct Pager {
-    path: PathBuf,
-    header: Header,
+    files: Vec<PagedFile>,
     pages: Vec<PageEntry>,
     wanted: Arc<Wanted>,
     /// `None` once it is closed.
@@ -36,8 +37,23 @@ pub struct Pager {
     thread: Option<JoinHandle<()>>,
 }
 
-/// Pages that have arrived, as one object.
+/// A file of a pager.
+#[derive(Clone, Debug)]
+pub struct PagedFile {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What messages call it.
+    pub name: String,
+    /// What it holds.
+    pub header: Header,
+    /// The numbers of its pages.
+    pub pages: Range<usize>,
+}
+
+/// Pages of one file that have arrived, as one object.
 pub struct Arrived {
+    /// Of the file.
+    pub file: usize,
     /// Their numbers.
     pub pages: Vec<usize>,
     /// Their splats and nodes.
@@ -91,31 +107,36 @@ impl Pager {
     ///
     /// # Errors
     /// [`crate::ErrorKind::File`] where the system has no thread left.
-    pub fn start<R: Read + Seek + Send + 'static>(file: LevelsFile<R>) -> Result<Self> {
-        let (path, header, pages) = (file.path().to_owned(), file.header().clone(), file.pages().to_vec());
+    pub fn start<R: Read + Seek + Send + 'static>(
+        files: impl IntoIterator<Item = LevelsFile<R>>,
+    ) -> Result<Self> {
+        let (mut own, mut pages, mut sources) = (Vec::new(), Vec::new(), Vec::new());
+        for file in files {
+            let first = pages.len();
+            pages.extend_from_slice(file.pages());
+            let (path, name) = (file.path().to_owned(), file.name().to_owned());
+            own.push(PagedFile { path, name, header: file.header().clone(), pages: first..pages.len() });
+            sources.push((first..pages.len(), file));
+        }
+        let first = own.first().map_or_else(PathBuf::new, |file| file.path.clone());
         let wanted = Arc::new(Wanted::default());
         let (sender, arrived) = sync_channel(MOST_WAITING);
         let of_thread = Arc::clone(&wanted);
         let thread = thread::Builder::new().name("pages".to_owned());
         let thread = thread
-            .spawn(move || read_all(file, &of_thread, &sender))
-            .map_err(|e| Error::file(&path, "read", e))?;
-        Ok(Self { path, header, pages, wanted, arrived: Some(arrived), thread: Some(thread) })
+            .spawn(move || read_all(sources, &of_thread, &sender))
+            .map_err(|e| Error::file(&first, "read", e))?;
+        Ok(Self { files: own, pages, wanted, arrived: Some(arrived), thread: Some(thread) })
     }
 
-    /// What the file holds.
-    pub fn header(&self) -> &Header {
-        &self.header
+    /// What it reads.
+    pub fn files(&self) -> &[PagedFile] {
+        &self.files
     }
 
-    /// Its pages.
+    /// The pages of all files.
     pub fn pages(&self) -> &[PageEntry] {
         &self.pages
-    }
-
-    /// Its path.
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 
     /// What is wanted from now on, in this order, in the place of what was. What is being read, or has arrived, comes only once; what [`Self::take`] has
@@ -140,13 +161,13 @@ impl Pager {
         self.wanted.lock().arrived > 0
     }
 
-    /// What has arrived since, without what nobody needs any more; `None` where that is nothing. With `wait`, waits for something, unless nothing is wanted.
+    /// What has arrived since, file by file, without what nobody needs any more. With `wait`, waits for something, unless nothing is wanted.
     ///
     /// # Errors
     /// As [`LevelsFile::check`], for the page at fault, once: it is broken from now on.
-    pub fn take(&self, is_needed: impl Fn(usize) -> bool, wait: bool) -> Result<Option<Arrived>> {
-        let Some(receiver) = &self.arrived else { return Ok(None) };
-        let (mut numbers, mut pages) = (Vec::new(), Vec::new());
+    pub fn take(&self, is_needed: impl Fn(usize) -> bool, wait: bool) -> Result<Vec<Arrived>> {
+        let Some(receiver) = &self.arrived else { return Ok(Vec::new()) };
+        let mut of_files: BTreeMap<usize, Vec<(usize, Page)>> = BTreeMap::new();
         let mut take = |(number, page): (usize, Result<Page>)| -> Result<()> {
             let mut list = self.wanted.lock();
             list.begun.remove(&number);
@@ -157,8 +178,7 @@ impl Pager {
             drop(list);
             let page = page?;
             if is_needed(number) {
-                numbers.push(number);
-                pages.push(page);
+                of_files.entry(file_of(&self.files, number)).or_default().push((number, page));
             }
             Ok(())
         };
@@ -173,13 +193,20 @@ impl Pager {
                 Err(TryRecvError::Empty | TryRecvError::Disconnected) => break,
             }
         }
-        if pages.is_empty() {
-            return Ok(None);
-        }
-        let mut object = empty_object(&self.path, &self.header, &self.pages, &numbers);
-        pages.into_iter().for_each(|page| add(&mut object, page));
-        Ok(Some(Arrived { pages: numbers, object }))
+        let arrived = of_files.into_iter().map(|(file, arrived)| {
+            let PagedFile { name, header, .. } = &self.files[file];
+            let (pages, read): (Vec<usize>, Vec<Page>) = arrived.into_iter().unzip();
+            let mut object = empty_object(name, header, &self.pages, &pages);
+            read.into_iter().for_each(|page| add(&mut object, page));
+            Arrived { file, pages, object }
+        });
+        Ok(arrived.collect())
     }
+}
+
+/// The file that has a page.
+fn file_of(files: &[PagedFile], page: usize) -> usize {
+    files.partition_point(|file| file.pages.end <= page)
 }
 
 impl Drop for Pager {
@@ -197,12 +224,15 @@ impl Drop for Pager {
 
 /// The thread.
 fn read_all<R: Read + Seek>(
-    mut file: LevelsFile<R>,
+    mut files: Vec<(Range<usize>, LevelsFile<R>)>,
     wanted: &Wanted,
     arrived: &SyncSender<(usize, Result<Page>)>,
 ) {
     while let Some(number) = wanted.begin() {
-        let page = file.page(number);
+        let Some((pages, file)) = files.iter_mut().find(|(pages, _)| pages.contains(&number)) else {
+            continue;
+        };
+        let page = file.page(number - pages.start);
         wanted.lock().arrived += 1;
         if arrived.send((number, page)).is_err() {
             return;

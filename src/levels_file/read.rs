@@ -9,22 +9,29 @@ use std::{
 use super::{
     choose::{Choice, PageView},
     header::{HEADER_BYTES, Header, MAGIC},
+    object::{add, empty_object},
     page::{Form, Page},
+    placed::{Placed, Placing},
     table::{ENTRY_BYTES, PageEntry},
 };
 use crate::{
     error::{Error, Result},
+    load::file_name,
     progress::Progress,
-    scene::{Ball, Bounds, Colors, LeveledObject, NodeBalls, Shapes, Splats},
+    scene::{Ball, Bounds, LeveledObject},
 };
 
 /// A file whose header and table were read.
 #[derive(Debug)]
 pub struct LevelsFile<R = File> {
     path: PathBuf,
+    /// In messages.
+    name: String,
     source: R,
     header: Header,
     pages: Vec<PageEntry>,
+    /// Where it stands in a scene, if not as it was written.
+    placing: Option<Box<Placing>>,
 }
 
 /// What was read for a view.
@@ -61,6 +68,14 @@ impl LevelsFile {
             return Err(Error::input(path, "", "not a file; expected a hierarchy of splats"));
         }
         Self::new(path, File::open(path).map_err(fail)?, metadata.len())
+    }
+
+    /// Opens the same file again, which stands as this one does.
+    ///
+    /// # Errors
+    /// As [`Self::open`] and [`Self::placed_as`].
+    pub fn again(&self) -> Result<Self> {
+        Self::open(&self.path)?.placed_as(self.name.clone(), &self.placed())
     }
 }
 
@@ -113,7 +128,35 @@ impl<R: Read + Seek> LevelsFile<R> {
             );
             return Err(refuse("table of pages".to_owned(), problem));
         }
-        Ok(Self { path: path.to_owned(), source, header, pages })
+        let name = file_name(path);
+        Ok(Self { path: path.to_owned(), name, source, header, pages, placing: None })
+    }
+
+    /// The same as it stands in a scene, under this name.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Input`] for a place beyond what numbers are for.
+    pub fn placed_as(self, name: String, placed: &Placed) -> Result<Self> {
+        let Self { path, source, mut header, mut pages, placing, .. } = self;
+        if let Some(placing) = placing {
+            (header, pages) = (placing.header, placing.pages);
+        }
+        if *placed == Placed::default() {
+            return Ok(Self { path, name, source, header, pages, placing: None });
+        }
+        let there = Placing::new(placed, header, pages);
+        let (placing, header, pages) = there.map_err(|problem| Error::input(&path, "", problem))?;
+        Ok(Self { path, name, source, header, pages, placing: Some(Box::new(placing)) })
+    }
+
+    /// How it stands in a scene.
+    pub fn placed(&self) -> Placed {
+        self.placing.as_ref().map_or_else(Placed::default, |placing| placing.placed().clone())
+    }
+
+    /// What messages call it: its file's name, unless it was given another one.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// What it holds.
@@ -162,11 +205,17 @@ impl<R: Read + Seek> LevelsFile<R> {
         most_bytes: u64,
         progress: &dyn Progress,
     ) -> Result<Chosen> {
+        let pages: Vec<&PageEntry> = self.pages.iter().collect();
         let choice = match view {
-            Some(view) => view.choose(&self.pages, most_bytes)?,
-            None => Choice::all(&self.pages),
+            Some(view) => view.choose(&pages, most_bytes)?,
+            None => Choice::all(&pages),
         };
-        let mut object = empty_object(&self.path, &self.header, &self.pages, &choice.pages);
+        self.chosen(choice, progress)
+    }
+
+    /// Reads some pages.
+    pub(super) fn chosen(&mut self, choice: Choice, progress: &dyn Progress) -> Result<Chosen> {
+        let mut object = empty_object(&self.name, &self.header, &self.pages, &choice.pages);
         self.read(&choice.pages, progress, |page| add(&mut object, page))?;
         let bytes = choice.pages.iter().map(|number| u64::from(self.pages[*number].bytes)).sum();
         let Choice { tau_px, wanted_bytes, .. } = choice;
@@ -187,7 +236,9 @@ impl<R: Read + Seek> LevelsFile<R> {
     /// Reads a page.
     pub(super) fn page(&mut self, number: usize) -> Result<Page> {
         let refuse = |problem: String| Error::input(&self.path, format!("page {number}"), problem);
-        let Some(entry) = self.pages.get(number) else {
+        let written = self.placing.as_deref().map(|placing| (&placing.header, &placing.pages));
+        let (header, pages) = written.unwrap_or((&self.header, &self.pages));
+        let Some(entry) = pages.get(number) else {
             return Err(refuse(format!("expected one of {}", self.pages.len())));
         };
         let bytes = read_at(&mut self.source, entry.at, entry.bytes.into())
@@ -195,44 +246,11 @@ impl<R: Read + Seek> LevelsFile<R> {
         if crc32fast::hash(&bytes) != entry.crc {
             return Err(refuse("its checksum is wrong: the file is damaged".to_owned()));
         }
-        Page::decode(&bytes, entry, &Form::of(&self.header)).map_err(refuse)
-    }
-}
-
-/// The object of a file without splats, but with room for those of some pages.
-pub(super) fn empty_object(
-    path: &Path,
-    header: &Header,
-    entries: &[PageEntry],
-    pages: &[usize],
-) -> LeveledObject {
-    let sum = |of: &dyn Fn(&PageEntry) -> u32| -> usize {
-        pages.iter().map(|number| of(&entries[*number]) as usize).sum()
-    };
-    let nodes = sum(&|page| if page.nodes { page.count } else { 0 });
-    let leaves = sum(&|page| page.count) - nodes;
-    let splats = |ellipses: bool, count: usize| {
-        let shapes = match ellipses {
-            true => Shapes::Ellipses { s: Vec::with_capacity(count), t: Vec::with_capacity(count) },
-            false => Shapes::Disks { normals: Vec::with_capacity(count), radii: Vec::with_capacity(count) },
-        };
-        let colors = header.color.map_or_else(|| Colors::Each(Vec::with_capacity(count)), Colors::Uniform);
-        Splats::new(Vec::with_capacity(count), shapes, colors)
-    };
-    LeveledObject {
-        name: path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
-        closed: header.closed,
-        opacity: header.opacity(),
-        overlap: header.overlap,
-        origin: header.origin,
-        radius: header.root_radius,
-        balls: Vec::with_capacity(sum(&|page| page.balls) + nodes),
-        leaves: splats(header.ellipses, leaves),
-        leaf_parents: Vec::with_capacity(leaves),
-        inverse_overlaps: Some(Vec::with_capacity(leaves)),
-        nodes: splats(true, nodes),
-        node_balls: Vec::with_capacity(nodes),
-        weights: Vec::with_capacity(nodes),
+        let page = Page::decode(&bytes, entry, &Form::of(header)).map_err(refuse)?;
+        match &self.placing {
+            None => Ok(page),
+            Some(placing) => placing.page(page).map_err(refuse),
+        }
     }
 }
 
@@ -247,22 +265,4 @@ fn read_at(source: &mut (impl Read + Seek), at: u64, bytes: u64) -> io::Result<V
         // It was as long when it was opened.
         false => Err(io::ErrorKind::UnexpectedEof.into()),
     }
-}
-
-/// Adds a page to what there is.
-pub(super) fn add(object: &mut LeveledObject, page: Page) {
-    let first = object.balls.len() as u32;
-    let parents = page.parents.iter().map(|parent| first + parent);
-    if page.nodes {
-        let own = first + page.balls.len() as u32..;
-        object.node_balls.extend(own.zip(parents).map(|(own, parent)| NodeBalls { own, parent }));
-        object.weights.extend(page.own.iter().map(|(_, weight)| *weight));
-    } else {
-        object.leaf_parents.extend(parents);
-        object.inverse_overlaps.get_or_insert_default().extend(page.inverse_overlaps);
-    }
-    object.balls.extend(page.balls);
-    object.balls.extend(page.own.iter().map(|(ball, _)| *ball));
-    let all = if page.nodes { &mut object.nodes } else { &mut object.leaves };
-    all.append(page.splats);
 }

@@ -2,6 +2,7 @@
 
 mod external;
 mod faults;
+mod placed;
 mod round_trip;
 mod views;
 mod writing;

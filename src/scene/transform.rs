@@ -18,6 +18,11 @@ pub fn is_invertible(map: &DAffine3) -> bool {
     map.is_finite() && Linear::of(&map.matrix3).volume.abs() > SMALLEST_VOLUME
 }
 
+/// Whether disks stay disks under a map.
+pub(crate) fn is_similarity(map: &DAffine3) -> bool {
+    Linear::of(&map.matrix3).similarity().is_some()
+}
+
 impl Splats {
     /// These splats under a map of world space, which must be [invertible](is_invertible): under another one those that
     /// become lines have a [`super::Defect`].

@@ -9,9 +9,9 @@ use std::{
     },
 };
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use surfel::{
-    levels_file::{LevelsFile, PageView, Pager, write_object},
+    levels_file::{LevelsFile, PageView, Pager, Placed, load_together, write_object},
     load::builtin,
     renderer::{Drawn, Headless, PagedScene},
     scene::{Camera, Edges, Epsilon, Lod, Scene},
@@ -80,7 +80,7 @@ fn a_camera_that_moves_sees_the_whole_at_every_moment() {
     let (all, pages) = (file.pages().iter().map(|page| page.device_bytes()).sum::<u64>(), file.pages().len());
     // Half of that is for the finest step: about three fifths of all are needed from afar.
     let most_bytes = 5 * all / 4;
-    let mut paged = PagedScene::new(Pager::start(file).unwrap(), most_bytes).unwrap();
+    let mut paged = PagedScene::new(Pager::start([file]).unwrap(), most_bytes).unwrap();
     // Hard edges: whether some chunk has splats for the graphics pipeline, which decides whether tiles cover pixels in part, differs between the two scenes.
     let mut hard = with(&ball(1, 1.0), |settings| {
         (settings.epsilon, settings.edges) = (Epsilon::Radii(1.0), Edges::Hard);
@@ -135,7 +135,7 @@ fn views_share_pages_and_memory() {
     let pages = file.pages().len();
     let size_px = [256, 256];
     let views = [0.0, 0.05].map(|x| PageView::new(&camera(3.0, x), size_px, 0.5));
-    let mut paged = PagedScene::new(Pager::start(file).unwrap(), 1 << 30).unwrap();
+    let mut paged = PagedScene::new(Pager::start([file]).unwrap(), 1 << 30).unwrap();
     let settle = |paged: &mut PagedScene, views: &[PageView]| {
         let mut drawn = update(&headless, paged, views, true);
         for _ in 0..1000 {
@@ -156,7 +156,7 @@ fn views_share_pages_and_memory() {
     let (file, _) = opened(&bytes);
     let far = PageView::new(&camera(1.2, 0.6), size_px, 0.0);
     let most_bytes = 6 << 20;
-    let mut small = PagedScene::new(Pager::start(file).unwrap(), most_bytes).unwrap();
+    let mut small = PagedScene::new(Pager::start([file]).unwrap(), most_bytes).unwrap();
     let drawn = settle(&mut small, &[views[0], far]);
     assert!(
         drawn.iter().all(|drawn| drawn.is_some_and(|drawn| drawn.is_finest && drawn.tau_px >= 1.0)),
@@ -172,7 +172,7 @@ fn faults_are_told_and_nothing_waits_for_ever() {
     let (file, _) = opened(&bytes);
     let view = PageView::new(&camera(3.0, 0.0), [64, 64], 0.0);
     // Too little even for the coarsest.
-    let mut none = PagedScene::new(Pager::start(file).unwrap(), 50).unwrap();
+    let mut none = PagedScene::new(Pager::start([file]).unwrap(), 50).unwrap();
     let error = none.update(&[view], &mut |scene| headless.prepare(scene, &|_, _| {}), true).unwrap_err();
     assert!(error.to_string().contains("memory: 50 bytes; expected more"), "{error}");
     // A page that is damaged, of splats, which the view needs; and a view of nothing.
@@ -181,7 +181,7 @@ fn faults_are_told_and_nothing_waits_for_ever() {
     let mut damaged = bytes.to_vec();
     damaged[file.pages()[page].at as usize] ^= 1;
     let (file, _) = opened(&damaged.into());
-    let mut paged = PagedScene::new(Pager::start(file).unwrap(), 1 << 30).unwrap();
+    let mut paged = PagedScene::new(Pager::start([file]).unwrap(), 1 << 30).unwrap();
     let away = Camera { target: DVec3::new(0.0, 0.0, 9.0), ..camera(3.0, 0.0) };
     let nothing = PageView::new(&away, [64, 64], 0.0);
     assert_eq!(update(&headless, &mut paged, &[nothing], true)[0].map(|drawn| drawn.is_finest), Some(true));
@@ -199,7 +199,7 @@ fn faults_are_told_and_nothing_waits_for_ever() {
     assert_eq!(error.as_deref(), Some(expected.as_str()));
     // Dropped while it reads.
     let (file, _) = opened(&bytes);
-    let pager = Pager::start(file).unwrap();
+    let pager = Pager::start([file]).unwrap();
     pager.want(&(0..pager.pages().len()).collect::<Vec<_>>());
     drop(pager);
 }
@@ -214,7 +214,7 @@ fn a_page_at_fault_is_told_once_and_nothing_waits_for_it() {
     let at = bytes.len() * 3 / 4;
     bytes[at] ^= 0x55;
     let (file, _) = opened(&bytes.into());
-    let mut paged = PagedScene::new(Pager::start(file).unwrap(), 1 << 30).unwrap();
+    let mut paged = PagedScene::new(Pager::start([file]).unwrap(), 1 << 30).unwrap();
     let view = [PageView::new(&camera(3.0, 0.0), [256, 256], 0.0)];
     let mut take = || paged.update(&view, &mut |scene| headless.prepare(scene, &|_, _| {}), true);
     let (mut faults, mut drawn) = (Vec::new(), None);
@@ -227,4 +227,74 @@ fn a_page_at_fault_is_told_once_and_nothing_waits_for_it() {
     assert!(faults.len() == 1 && faults[0].starts_with("a.surfel: page "), "{faults:?}");
     assert!(drawn.is_some_and(|drawn| !drawn.is_finest && drawn.tau_px > 0.0), "{drawn:?}");
     assert!(!paged.is_coming() && !paged.has_arrived());
+}
+
+/// Takes all that comes for a view, within so many bytes; the sizes on the way.
+fn settle(headless: &Headless, paged: &mut PagedScene, view: PageView, most_bytes: u64) -> Vec<f64> {
+    let mut sizes = Vec::new();
+    for _ in 0..1000 {
+        let Some(drawn) = update(headless, paged, &[view], true)[0] else { continue };
+        assert!(paged.bytes() <= most_bytes, "{} of {most_bytes}", paged.bytes());
+        sizes.push(drawn.tau_px);
+        if drawn.is_finest || !paged.is_coming() {
+            break;
+        }
+    }
+    sizes
+}
+
+/// Several files, one of them turned and mirrored, within one memory and beside a scene that is there as a whole: the picture of what files give for its size. What is hidden goes
+/// and comes again, and another scene takes the place of the one beside.
+#[test]
+fn files_share_a_picture_and_memory_with_all_of_a_scene() {
+    let mut headless = shared();
+    let bytes = file_of(100_000);
+    let mirrored = DAffine3::from_translation(DVec3::new(0.9, 0.3, -0.8))
+        * DAffine3::from_rotation_y(1.0)
+        * DAffine3::from_scale(DVec3::new(-0.8, 0.8, 0.8));
+    let files = || {
+        let placed = Placed { world_from_file: mirrored, color: Some([0.1, 0.5, 0.9]), alpha: 1.0 };
+        [opened(&bytes).0, opened(&bytes).0.placed_as("there".to_owned(), &placed).unwrap()]
+    };
+    let all: u64 = files().iter().flat_map(|file| file.pages()).map(|page| page.device_bytes()).sum();
+    let beside = |x: f64| {
+        let mut hard = with(&ball(3000, 0.0), |settings| {
+            (settings.epsilon, settings.edges) = (Epsilon::Radii(1.0), Edges::Hard);
+            settings.lod = Lod::Px(0.5);
+        });
+        hard.camera = camera(4.0, 0.0);
+        let splats = &mut hard.scene.objects[0].splats;
+        splats.positions.iter_mut().for_each(|position| *position = *position + DVec3::new(x, 1.2, 0.5));
+        hard
+    };
+    let view = PageView::new(&camera(4.0, 0.0), beside(0.0).settings.size_px, 0.5);
+    let mut paged = PagedScene::new(Pager::start(files()).unwrap(), 2 * all).unwrap();
+    assert_eq!(paged.scene().objects, ["a.surfel", "there"]);
+    let mut pages = Vec::new();
+    let steps = [([true, true], -1.0), ([false, true], -1.0), ([true, true], -1.0), ([true, false], -0.6)];
+    for (is_seen, x) in steps {
+        let mut hard = beside(x);
+        paged.set_beside(headless.prepare(&hard.scene, &|_, _| {}).unwrap()).unwrap();
+        assert_eq!(paged.scene().objects[1..], ["a.surfel", "there"]);
+        paged.show(&is_seen);
+        let sizes = settle(&headless, &mut paged, view, 2 * all);
+        assert_eq!(sizes.last(), Some(&0.5), "{sizes:?}");
+        let found = headless.render(paged.scene(), &hard.camera, &hard.settings, PICTURE).unwrap();
+        let seen = files().into_iter().zip(is_seen).filter(|(_, is_seen)| *is_seen).map(|(file, _)| file);
+        let read = load_together(&mut seen.collect::<Vec<_>>(), &view, u64::MAX, &()).unwrap();
+        hard.scene.leveled = read.into_iter().map(|chosen| chosen.object).collect();
+        let expected = render_as(&mut headless, &hard, PICTURE);
+        let others = expected.linear.iter().zip(&found.linear).filter(|(a, b)| is_another(a, b)).count();
+        let covered = expected.linear.iter().filter(|pixel| pixel[3] > 0.5).count();
+        println!("{is_seen:?}: {others} others of {covered}, {} pages", paged.pages());
+        // As above.
+        assert!(others <= 8 && covered > 3000, "{is_seen:?}: {others} of {covered}");
+        pages.push(paged.pages());
+    }
+    assert!(pages[1] < pages[0] && pages[2] == pages[0] && pages[3] < pages[0], "{pages:?}");
+    // In less memory both are coarser, alike.
+    let most_bytes = all / 4;
+    let mut small = PagedScene::new(Pager::start(files()).unwrap(), most_bytes).unwrap();
+    let coarse = settle(&headless, &mut small, view, most_bytes);
+    assert!(coarse.last() > Some(&0.5), "{coarse:?}");
 }

@@ -111,7 +111,7 @@ impl CameraChoice {
 fn ball_named(name: &str, loaded: &Loaded) -> Result<Ball> {
     let octrees = || loaded.octrees.files.iter().map(|file| (file_name(file.path()), file.ball()));
     let files =
-        || loaded.hierarchies.iter().map(|file| (file_name(file.path()), file.ball())).chain(octrees());
+        || loaded.hierarchies.iter().map(|file| (file.name().to_owned(), file.ball())).chain(octrees());
     let of_files = files().filter(|(own, _)| own == name).map(|(_, ball)| ball);
     let found = of_files.chain(loaded.scene.ball_named(name)).reduce(Ball::union);
     found.ok_or_else(|| {

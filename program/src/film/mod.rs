@@ -260,6 +260,7 @@ fn job(
     job.add(&(words, crop, making.part.whole_px, making.hierarchies.budget_memory));
     job.add_scene(&loaded.scene);
     for file in &loaded.hierarchies {
+        job.add(&file.placed());
         job.add_file(file.path()).map_err(|e| Error::file(file.path(), "read", e))?;
     }
     for file in loaded.octrees.files.iter().flat_map(PointOctree::files) {

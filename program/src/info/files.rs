@@ -158,7 +158,7 @@ fn splat_part(object: &Object) -> Part {
 fn hierarchy_part(file: &LevelsFile) -> Part {
     let header = file.header();
     Part {
-        name: file_name(file.path()),
+        name: file.name().to_owned(),
         kind: "splats",
         count: usize::try_from(header.splats).unwrap_or(usize::MAX),
         closed: header.closed,

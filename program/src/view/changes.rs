@@ -8,6 +8,7 @@ use surfel::{
 };
 
 use super::{
+    document::Document,
     edits::Edits,
     keys::{self, Action, Comparing},
     panel, values,
@@ -137,14 +138,14 @@ impl Viewer {
             }
         }
         let Some(document) = &self.document else { return Ok(()) };
-        self.edits.check(&document.scene, &settings)?;
+        document.check(&self.edits, &settings, self.options.most_paged_bytes)?;
         settings.check_scene(&document.scene)
     }
 
     /// Other changes of the scene, if they can be drawn.
     pub fn edit(&mut self, edits: Edits) {
         let Some(document) = &self.document else { return };
-        match edits.check(&document.scene, &self.settings) {
+        match document.check(&edits, &self.settings, self.options.most_paged_bytes) {
             Ok(()) => {
                 self.edits = edits;
                 self.prepare(false);
@@ -159,7 +160,7 @@ impl Viewer {
         (self.comparing, self.split) = (None, 0.5);
         self.encoding = encoding;
         self.set(settings);
-        let edits = self.document.as_ref().map(|document| Edits::none(&document.scene));
+        let edits = self.document.as_ref().map(Document::no_edits);
         if let Some(edits) = edits.filter(|edits| *edits != self.edits) {
             self.edits = edits;
             self.prepare(false);
@@ -207,9 +208,8 @@ impl Viewer {
         // Where steps up and down meet again, it is the files' own.
         let scale = if (scale - 1.0).abs() < 1e-3 { 1.0 } else { scale };
         if self.edits.splat_scale != scale {
-            self.edits.splat_scale = scale;
             self.ui.tell(&format!("splats {scale:.2} times as large"));
-            self.prepare(false);
+            self.edit(Edits { splat_scale: scale, ..self.edits.clone() });
         }
     }
 

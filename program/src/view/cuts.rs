@@ -21,7 +21,7 @@ impl Viewer {
             Cutting::Plane => plane(&self.settings, navigation.pivot(), navigation.forward()),
             Cutting::Box => around(
                 &self.settings,
-                document.scene.bounds().unwrap_or(Bounds::of_ball(document.ball.center, radius)),
+                document.bounds().unwrap_or(Bounds::of_ball(document.ball.center, radius)),
                 AROUND * radius,
             ),
             Cutting::More => moved(&self.settings, STEP * radius, LEAST_HALF * radius),

@@ -2,11 +2,12 @@
 
 use surfel::{
     Result,
+    levels_file::LevelsFile,
     notes::counted,
     scene::{HybridLevels, Object, Opacity, Scene, Settings, Shapes, Splats},
 };
 
-/// Changes of a scene. Things are objects, then meshes, then those in levels of detail.
+/// Changes of a scene. Things are objects, then meshes, then those in levels of detail, then files that are read in pages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edits {
     /// For each thing whether it is seen, and its alpha over that of the file.
@@ -16,9 +17,9 @@ pub struct Edits {
 }
 
 impl Edits {
-    /// None of a scene.
-    pub fn none(scene: &Scene) -> Self {
-        let things = scene.objects.len() + scene.meshes.len() + scene.leveled.len();
+    /// None of a scene, and of files beside it.
+    pub fn none(scene: &Scene, files: &[LevelsFile]) -> Self {
+        let things = things_before_files(scene) + files.len();
         Self { things: vec![(true, 1.0); things], splat_scale: 1.0 }
     }
 
@@ -31,8 +32,8 @@ impl Edits {
     ///
     /// # Errors
     /// As [`Settings::check_eye_dome`].
-    pub fn check(&self, scene: &Scene, settings: &Settings) -> Result<()> {
-        let seen = things(scene).into_iter().zip(&self.things).filter(|(_, (seen, _))| *seen);
+    pub fn check(&self, scene: &Scene, files: &[LevelsFile], settings: &Settings) -> Result<()> {
+        let seen = things(scene, files).into_iter().zip(&self.things).filter(|(_, (seen, _))| *seen);
         let mut transparent = seen.filter(|(_, (_, alpha))| *alpha < 1.0);
         transparent.try_for_each(|((name, _), _)| settings.check_eye_dome(&name, "transparent"))
     }
@@ -94,7 +95,8 @@ impl Edits {
         levels
     }
 
-    fn splats(&self, splats: &Splats, alpha: f32) -> Splats {
+    /// Splats with an alpha over their own, and the size of now.
+    pub fn splats(&self, splats: &Splats, alpha: f32) -> Splats {
         let mut splats = splats.clone();
         scale(&mut splats, self.splat_scale);
         if alpha != 1.0 {
@@ -141,8 +143,13 @@ pub fn some_of(scene: &Scene, splats: usize) -> (Scene, f64) {
     (some, all as f64 / splats as f64)
 }
 
-/// The names of a scene's things, in the order of [`Edits`], with what they are in a word or two.
-pub fn things(scene: &Scene) -> Vec<(String, String)> {
+/// How many things are before the files beside a scene.
+pub fn things_before_files(scene: &Scene) -> usize {
+    scene.objects.len() + scene.meshes.len() + scene.leveled.len()
+}
+
+/// The names of a scene's things, and of files beside it, in the order of [`Edits`], with what they are in a word or two.
+pub fn things(scene: &Scene, files: &[LevelsFile]) -> Vec<(String, String)> {
     let transparent = |opacity| if opacity == Opacity::Opaque { "" } else { ", transparent" };
     let objects = scene.objects.iter().map(|object| {
         let (count, opacity) = (object.splats.len(), object.splats.colors.opacity());
@@ -156,7 +163,10 @@ pub fn things(scene: &Scene) -> Vec<(String, String)> {
         let count = object.leaves.len();
         (object.name.clone(), format!("{count} splats in levels{}", transparent(object.opacity)))
     });
-    let mut all: Vec<(String, String)> = objects.chain(meshes).chain(leveled).collect();
+    let paged = files
+        .iter()
+        .map(|file| (file.name().to_owned(), format!("{} splats in pages", file.header().splats)));
+    let mut all: Vec<(String, String)> = objects.chain(meshes).chain(leveled).chain(paged).collect();
     let mut named = std::collections::HashMap::<String, (usize, usize)>::new();
     all.iter().for_each(|(name, _)| named.entry(name.clone()).or_default().0 += 1);
     for (name, _) in &mut all {
@@ -194,7 +204,7 @@ mod tests {
             scene.hybrids.push(HybridLevels { mesh: scene.meshes.len(), ..made.levels });
             scene.meshes.push(MeshObject { name: name.to_owned(), mesh: made.mesh, closed: made.closed });
         }
-        let mut edits = Edits::none(&scene);
+        let mut edits = Edits::none(&scene, &[]);
         assert_eq!(edits.things.len(), 2);
         edits.things[0].0 = false;
         edits.splat_scale = 2.0;
@@ -220,7 +230,7 @@ mod tests {
             ([(true, 1.0), (false, 0.9)], &edl, true),
             ([(true, 1.0), (true, 0.9)], &Settings::default(), true),
         ] {
-            assert_eq!(with(things).check(&scene, settings).is_ok(), is_drawn, "{things:?}");
+            assert_eq!(with(things).check(&scene, &[], settings).is_ok(), is_drawn, "{things:?}");
         }
     }
 
@@ -247,7 +257,7 @@ mod tests {
     fn things_of_one_name_are_numbered() {
         let objects = ["a", "b", "a", "a"].map(|name| object(name, 1.0)).into();
         let names: Vec<_> =
-            things(&Scene { objects, ..Scene::default() }).into_iter().map(|(name, _)| name).collect();
+            things(&Scene { objects, ..Scene::default() }, &[]).into_iter().map(|(name, _)| name).collect();
         assert_eq!(names, ["a, 1 of 3", "b", "a, 2 of 3", "a, 3 of 3"]);
     }
 
@@ -258,7 +268,7 @@ mod tests {
             epsilons: vec![None, Some(Epsilon::Length(3.0))],
             ..Scene::default()
         };
-        let mut edits = Edits::none(&scene);
+        let mut edits = Edits::none(&scene, &[]);
         assert!(edits.are_none() && edits.of(&scene).objects.len() == 2);
         edits.things = vec![(false, 1.0), (true, 0.5)];
         edits.splat_scale = 1.5;
@@ -267,6 +277,6 @@ mod tests {
         assert_eq!(edited.own_epsilon(0), Some(Epsilon::Length(3.0)));
         assert_eq!(edited.objects[0].splats.color(0), [1.0, 1.0, 1.0, 0.5]);
         assert_eq!(edited.objects[0].splats.major_radius(0), 3.0);
-        assert_eq!(things(&scene)[1], ("b".to_owned(), "2 splats".to_owned()));
+        assert_eq!(things(&scene, &[])[1], ("b".to_owned(), "2 splats".to_owned()));
     }
 }

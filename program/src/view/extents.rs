@@ -72,11 +72,11 @@ mod tests {
         let mut scene = Scene { objects: vec![object(0.0), object(10.0)], ..Scene::default() };
         let balls = balls(&mut scene);
         assert_eq!(
-            things(&scene).iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(),
+            things(&scene, &[]).iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(),
             ["at 0", "at 10"]
         );
         let whole = scene.ball().unwrap();
-        let mut edits = Edits::none(&scene);
+        let mut edits = Edits::none(&scene, &[]);
         assert_eq!(ball_of_seen(whole, &balls, &edits), whole);
         // The view at first may be of one of them alone.
         let first = balls[0].unwrap();

@@ -12,33 +12,41 @@ use std::{
 
 use surfel::{
     Error, Result,
+    levels_file::LevelsFile,
     prepare::{PreparedScene, SplatSetLayout, prepare},
-    scene::{Budget, Light, LodSteps, Scene, Settings, Storage},
+    scene::{Light, Scene, Settings, Storage},
     vk::{Device, Limits},
 };
 use winit::event_loop::EventLoopProxy;
 
 use super::{
-    document::Document,
     edits::{Edits, part_of},
-    extents,
+    opening::open,
     told::{News, Prepared, Step},
 };
-use crate::{
-    camera::CameraChoice, console::Bars, hierarchies::load_scene_with_hierarchies, inputs::Inputs,
-    scene::Loaded, unused,
-};
+use crate::{camera::CameraChoice, console::Bars, inputs::Inputs};
 
 /// A part of a scene is shown first where it has more splats.
 const PART_FROM: usize = 200_000;
 /// So many are a part of it.
 const PART_SPLATS: usize = 60_000;
 /// Levels of detail are made of more splats.
-const LEVELS_FROM: usize = 300_000;
+pub const LEVELS_FROM: usize = 300_000;
 
 enum Job {
-    Open { number: u64, files: Inputs, size_px: [u32; 2] },
-    Prepare { number: u64, scene: Arc<Scene>, edits: Edits, device: Device, in_parts: bool },
+    Open {
+        number: u64,
+        files: Inputs,
+        size_px: [u32; 2],
+    },
+    Prepare {
+        number: u64,
+        scene: Arc<Scene>,
+        files: Arc<[LevelsFile]>,
+        edits: Edits,
+        device: Device,
+        in_parts: bool,
+    },
 }
 
 /// The thread, as the window knows it.
@@ -110,10 +118,16 @@ impl Loader {
         self.send(Job::Open { number, files, size_px });
     }
 
-    /// Brings a scene with changes to a device; a part of it first, if so wanted.
-    pub fn prepare(&self, scene: Arc<Scene>, edits: Edits, device: Device, in_parts: bool) {
+    /// Brings a scene with changes to a device, and those of the files beside it that are changed; a part of it first, if so wanted.
+    pub fn prepare(
+        &self,
+        (scene, files, edits): (&Arc<Scene>, &Arc<[LevelsFile]>, &Edits),
+        device: Device,
+        in_parts: bool,
+    ) {
         let number = self.next();
-        self.send(Job::Prepare { number, scene, edits, device, in_parts });
+        let (scene, files, edits) = (Arc::clone(scene), Arc::clone(files), edits.clone());
+        self.send(Job::Prepare { number, scene, files, edits, device, in_parts });
     }
 
     /// Whether a result is of the newest job.
@@ -154,15 +168,15 @@ impl Worker {
                 Job::Prepare { number, .. } if !self.is_newest(number) => {}
                 Job::Open { files, size_px, .. } => {
                     self.is_reading.store(true, Ordering::Release);
-                    let opened = self.open(files, size_px);
+                    let opened = open(files, size_px, &self.wants, &self.bars);
                     self.is_reading.store(false, Ordering::Release);
                     self.tell(match opened {
                         Ok(document) => News::Opened(Box::new(document)),
                         Err(error) => News::Unread(error),
                     });
                 }
-                Job::Prepare { number, scene, edits, device, in_parts } => {
-                    if let Err(error) = self.prepare(number, (&scene, &edits), &device, in_parts) {
+                Job::Prepare { number, scene, files, edits, device, in_parts } => {
+                    if let Err(error) = self.prepare(number, (&scene, &files, &edits), &device, in_parts) {
                         self.tell(News::Failed(error));
                     }
                 }
@@ -179,64 +193,22 @@ impl Worker {
         job == self.newest.load(Ordering::Acquire)
     }
 
-    fn open(&self, files: Inputs, size_px: [u32; 2]) -> Result<Document> {
-        let mut loaded = load_scene_with_hierarchies(&files, &self.bars)?;
-        let Wants { camera, lights, storage, settings, said } = &self.wants;
-        let budget = settings.budget != Budget::Unlimited;
-        unused::tell(said.iter().copied(), &files, &loaded);
-        let camera = camera.camera(&loaded, size_px)?;
-        let in_pages = *storage == Storage::default() && !budget;
-        let paged = match &loaded.hierarchies[..] {
-            [file] if loaded.inputs.len() == 1 && in_pages && !file.header().transparent => {
-                Some(file.path().to_owned())
-            }
-            _ => None,
-        };
-        if !unused::is_triangles(&loaded) {
-            let has = |name| said.contains(&name).then_some(name);
-            if paged.is_none() {
-                let because = "it is for an opaque .surfel file by itself, without --budget, --order and --splat-format";
-                unused::say(has("budget-memory").as_slice(), because);
-            }
-            let has_levels = budget || loaded.scene.has_levels() || !loaded.hierarchies.is_empty();
-            if !has_levels && loaded.scene.splat_count() <= LEVELS_FROM {
-                let levels = has("lod").filter(|_| settings.lod.wants_levels());
-                let steps = has("lod-steps").filter(|_| settings.lod_steps != LodSteps::Hard);
-                let unused: Vec<&str> = levels.into_iter().chain(steps).collect();
-                let because = format!(
-                    "the window makes levels of detail of more than {LEVELS_FROM} splats; --budget makes them of fewer"
-                );
-                unused::say(&unused, &because);
-            }
-        }
-        for mut file in std::mem::take(&mut loaded.hierarchies).into_iter().filter(|_| paged.is_none()) {
-            loaded.scene.leveled.push(file.load(None, u64::MAX, &self.bars)?.object);
-        }
-        self.bars.clear();
-        let Loaded { mut scene, ball, picture, inputs, .. } = loaded;
-        if !lights.is_empty() {
-            scene.lights.clone_from(lights);
-        }
-        scene.storage = *storage;
-        (scene.budget, scene.levels) = (budget, budget);
-        scene.numbered = true;
-        let balls = extents::balls(&mut scene);
-        Ok(Document { scene: Arc::new(scene), ball, balls, camera, picture, inputs, files, paged })
-    }
-
     /// Step by step, until another job comes.
     fn prepare(
         &self,
         job: u64,
-        (scene, edits): (&Arc<Scene>, &Edits),
+        (scene, files, edits): (&Arc<Scene>, &[LevelsFile], &Edits),
         device: &Device,
         in_parts: bool,
     ) -> Result<()> {
-        let edited;
+        let mut edited;
         let scene = match edits.are_none() {
             true => &**scene,
             false => {
                 edited = edits.of(scene);
+                edited.objects.extend(edits.whole_files(scene, files, &self.bars)?);
+                self.bars.clear();
+                edited.epsilons.resize(edited.objects.len(), None);
                 &edited
             }
         };
@@ -247,7 +219,8 @@ impl Worker {
             steps.push(Step::Part);
         }
         steps.push(if has_levels { Step::Leveled } else { Step::Whole });
-        if splats > LEVELS_FROM && !has_levels {
+        // Beside pages all of it is drawn, however coarse they are.
+        if splats > LEVELS_FROM && !has_levels && files.is_empty() {
             steps.push(Step::Leveled);
         }
         let last = steps.last().copied();

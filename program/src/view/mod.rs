@@ -1,5 +1,5 @@
 //! `surfel view`: a scene in a window. One file a part: what keys do (`keys`), how the camera moves (`navigation`), how coarse a moving
-//! picture is (`pace`), the thread that reads files (`loading`, `told`), the window's device (`device`, `gpu` and the files it names; `warm`, `ahead`), what lies over the
+//! picture is (`pace`), the thread that reads files (`loading`, `opening`, `told`), the window's device (`device`, `gpu` and the files it names; `warm`, `ahead`), what lies over the
 //! picture (`ui`, `panel`, `state`, `popups`, `compared`), and the window itself (`app`, `viewer`, `news`, `redraw`, `steps`, `meanwhile`, `costs`, `refine`, `hidden`, `recover`, `input`, `files`, `changes`, `reasons`, `things`, `picking`, `anchor`, `path`, `capture`).
 
 mod ahead;
@@ -14,6 +14,7 @@ mod cuts;
 mod device;
 mod display;
 mod document;
+mod edited_files;
 mod edits;
 mod extents;
 mod files;
@@ -32,6 +33,7 @@ mod memory;
 mod navigation;
 mod news;
 mod on_device;
+mod opening;
 mod options;
 mod overlay;
 mod pace;
@@ -82,7 +84,7 @@ const EXAMPLES: &str = "Examples:
 
 /// Look at a scene in a window
 #[derive(Args)]
-#[command(long_about = format!("Look at a scene in a window.\n\n{INPUTS}\n\nAn opaque .surfel file by itself is read in the background, coarser pages first, as the camera needs them; beside others it is read whole. Files that change on disk are read again; \
+#[command(long_about = format!("Look at a scene in a window.\n\n{INPUTS}\n\nOpaque .surfel files, on the command line and in scene files, are read in the background, coarser pages first, as the camera needs them; transparent ones, and what is made transparent, are read whole. Files that change on disk are read again; \
 files that are dropped on the window take the place of the scene."))]
 #[command(after_help = format!("{}\n\n{EXAMPLES}", manual_of_keys()))]
 pub struct ViewArguments {
@@ -104,7 +106,7 @@ pub struct ViewArguments {
     #[arg(long, value_name = "WxH", value_parser = <[u32; 2]>::parse)]
     picture_size: Option<[u32; 2]>,
 
-    /// So much device memory for a .surfel file, such as 256MB, of which pages come as the camera needs them: what is drawn is coarser where it does not suffice
+    /// So much device memory for all .surfel files together, such as 256MB, of which pages come as the camera needs them: what is drawn is coarser where it does not suffice
     /// [default: 2GB]
     #[arg(long, value_name = "BYTES", value_parser = parse::bytes(1 << 20), allow_hyphen_values = true)]
     budget_memory: Option<u64>,

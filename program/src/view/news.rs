@@ -1,19 +1,15 @@
 //! What comes from elsewhere: files that are read, and scenes on their way to the device.
 
-use std::sync::Arc;
-
 use surfel::{
     Error, Result,
-    levels_file::LevelsFile,
     scene::{Samples, Settings},
 };
 
 use super::{
     document::Document,
-    edits::Edits,
     navigation::Navigation,
     on_device::{OnDevice, Paged},
-    told::News,
+    told::{News, Prepared},
     viewer::Viewer,
 };
 use crate::outputs::with_models;
@@ -26,7 +22,13 @@ impl Viewer {
     pub fn hear(&mut self, news: News) -> Result<()> {
         match news {
             News::Opened(document) => self.opened(*document),
-            News::Prepared(prepared) if self.loader.is_newest(prepared.job) => {
+            News::Prepared(prepared) if !self.loader.is_newest(prepared.job) => Ok(()),
+            News::Prepared(prepared)
+                if self.prepared.as_ref().is_some_and(|shown| shown.pages().is_some()) =>
+            {
+                self.take_beside_pages(*prepared)
+            }
+            News::Prepared(prepared) => {
                 self.coming = Some(OnDevice::Whole(Box::new(prepared.scene), prepared.step));
                 self.prepares = !prepared.is_last;
                 if self.prepared.is_none() {
@@ -35,7 +37,6 @@ impl Viewer {
                 self.window.request_redraw();
                 Ok(())
             }
-            News::Prepared(_) => Ok(()),
             // It may be for a device that is lost.
             News::Upload(_, job, answer) if !self.loader.is_newest(job) => {
                 let _ = answer.send(Err(Error::option("scene", "another one has come")));
@@ -113,8 +114,8 @@ impl Viewer {
             Some(navigation) if self.keeps_camera => navigation.set_ball(document.ball),
             navigation => *navigation = Some(Navigation::new(document.camera, document.ball)),
         }
-        if !(self.keeps_camera && self.edits.things.len() == Edits::none(&document.scene).things.len()) {
-            (self.edits, self.thing) = (Edits::none(&document.scene), 0);
+        if !(self.keeps_camera && self.edits.things.len() == document.no_edits().things.len()) {
+            (self.edits, self.thing) = (document.no_edits(), 0);
         }
         let names: Vec<_> = document.inputs.iter().map(|input| input.name.as_str()).collect();
         self.window.set_title(&format!("{} - surfel (? shows the keys)", names.join(", ")));
@@ -133,31 +134,40 @@ impl Viewer {
         Ok(())
     }
 
-    /// Brings the scene to the device, with the changes of now. `is_other`: it is not that which is shown, so that a part of it is better
-    /// than nothing.
+    /// Brings the scene to the device, with the changes of now; pages of files beside it come as views need them. `is_other`: it is not that which is shown, so that
+    /// a part of it is better than nothing.
     pub fn prepare(&mut self, is_other: bool) {
         let Some(document) = &self.document else { return };
         self.coming = None;
-        let Some(path) = &document.paged else {
-            let device = self.gpu.headless.device().clone();
-            self.prepares = true;
-            self.loader.prepare(Arc::clone(&document.scene), self.edits.clone(), device, is_other);
+        let device = self.gpu.headless.device().clone();
+        self.prepares = true;
+        self.loader.prepare((&document.scene, &document.paged, &self.edits), device, is_other);
+        let has_pages = self.prepared.as_ref().is_some_and(|prepared| prepared.pages().is_some());
+        if document.paged.is_empty() || has_pages && !is_other {
             return;
-        };
-        self.prepares = false;
-        if !is_other && self.edits.splat_scale != 1.0 {
-            self.edits.splat_scale = 1.0;
-            self.ui.tell("splats of files that are read in pages keep their size");
         }
         self.scene_number += 1;
-        if is_other || self.prepared.as_ref().is_none_or(|prepared| prepared.pages().is_none()) {
-            let paged = LevelsFile::open(path).and_then(|file| {
-                Paged::new(file, self.options.most_paged_bytes, document.scene.lights.clone())
-            });
-            match paged {
-                Ok(paged) => self.prepared = Some(OnDevice::Paged(Box::new(paged))),
-                Err(error) => self.tell(&error.to_string()),
+        let lights = document.scene.lights.clone();
+        match Paged::new(&document.paged, self.options.most_paged_bytes, lights) {
+            Ok(mut paged) => {
+                paged.show(&self.edits.in_pages(&document.scene, &document.paged));
+                self.prepared = Some(OnDevice::Paged(Box::new(paged)));
             }
+            Err(error) => self.tell(&error.to_string()),
         }
+    }
+
+    /// What is there as a whole beside pages, in the place of what was.
+    fn take_beside_pages(&mut self, prepared: Prepared) -> Result<()> {
+        let (Some(OnDevice::Paged(paged)), Some(document)) = (&mut self.prepared, &self.document) else {
+            return Ok(());
+        };
+        paged.set_beside(prepared.scene)?;
+        paged.show(&self.edits.in_pages(&document.scene, &document.paged));
+        self.prepares = !prepared.is_last;
+        self.scene_number += 1;
+        self.pace.forget_whole();
+        self.changed();
+        Ok(())
     }
 }

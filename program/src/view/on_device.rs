@@ -1,4 +1,4 @@
-//! What of a scene is on the device: all of it, or pages of a file that come and go as the camera moves.
+//! What of a scene is on the device: all of it, or pages of files that come and go as the camera moves, beside all of the rest.
 
 use surfel::{
     Error, ErrorKind, Headless, Result,
@@ -14,11 +14,11 @@ use super::told::Step;
 pub enum OnDevice {
     /// What was read at once, and how much of it that is.
     Whole(Box<PreparedScene>, Step),
-    /// Pages.
+    /// Pages, and what is there as a whole beside them.
     Paged(Box<Paged>),
 }
 
-/// Pages of a file.
+/// Pages of files.
 pub struct Paged {
     scene: PagedScene,
     /// The size for a picture at rest with what is there.
@@ -48,7 +48,7 @@ impl OnDevice {
         }
     }
 
-    /// The pages, if it is a file of them.
+    /// The pages, if there are files of them.
     pub fn pages(&self) -> Option<&Paged> {
         match self {
             Self::Whole(..) => None,
@@ -58,13 +58,28 @@ impl OnDevice {
 }
 
 impl Paged {
-    /// Nothing of a file yet, within so many bytes of device memory.
+    /// Nothing of some files yet, within so many bytes of device memory.
     ///
     /// # Errors
-    /// As [`Pager::start`] and [`PagedScene::new`].
-    pub fn new(file: LevelsFile, most_bytes: u64, lights: Vec<Light>) -> Result<Self> {
-        let scene = PagedScene::new(Pager::start(file)?, most_bytes)?.lit_by(lights);
+    /// As [`LevelsFile::again`], [`Pager::start`] and [`PagedScene::new`].
+    pub fn new(files: &[LevelsFile], most_bytes: u64, lights: Vec<Light>) -> Result<Self> {
+        let files = files.iter().map(LevelsFile::again).collect::<Result<Vec<_>>>()?;
+        let scene = PagedScene::new(Pager::start(files)?, most_bytes)?.lit_by(lights);
         Ok(Self { scene, still_px: None, is_coming: true, fault: None, faults: 0 })
+    }
+
+    /// With all of this beside the pages.
+    ///
+    /// # Errors
+    /// As [`PagedScene::set_beside`].
+    pub fn set_beside(&mut self, scene: PreparedScene) -> Result<()> {
+        self.scene.set_beside(scene)
+    }
+
+    /// With pages of these files alone.
+    pub fn show(&mut self, is_seen: &[bool]) {
+        self.scene.show(is_seen);
+        (self.still_px, self.is_coming) = (None, true);
     }
 
     /// Takes what has arrived; the settings with which each of these pictures can be drawn now, `None` where not even the coarsest pages are

@@ -10,15 +10,11 @@ const OF_SPLATS: [&str; 5] = ["rasterizer", "filter", "filter-weight", "kernel",
 struct Holds {
     splats: bool,
     transparent: bool,
-    pages: bool,
 }
 
 /// Why an action changes nothing of a scene, if so.
 fn why(action: Action, holds: Holds) -> Option<String> {
     match action {
-        Action::SplatScale(_) if holds.pages => {
-            Some("splats of files that are read in pages keep their size".to_owned())
-        }
         Action::SplatScale(_) if !holds.splats => Some("no size changes: no splat is seen".to_owned()),
         Action::Setting(name, _) if OF_SPLATS.contains(&name) && !holds.splats => {
             Some(format!("{name} is of splats, of which none is seen"))
@@ -38,7 +34,7 @@ impl Viewer {
         let transparent = scene.is_transparent();
         let (splats, pages) = (!scene.chunks().is_empty(), prepared.pages().is_some());
         // Of pages none may be there yet.
-        let holds = Holds { splats: splats || pages, transparent, pages };
+        let holds = Holds { splats: splats || pages, transparent };
         let why = why(action, holds);
         if let Some(why) = &why {
             self.ui.tell(why);
@@ -54,13 +50,13 @@ mod tests {
 
     #[test]
     fn what_a_scene_lacks_is_why_nothing_changes() {
-        let all = Holds { splats: true, transparent: true, pages: false };
+        let all = Holds { splats: true, transparent: true };
         let outlines = Action::Setting("outlines", Step::Next);
         let shading = Action::Setting("shading", Step::Next);
         for action in [Action::SplatScale(2.0), Action::Layers(1), outlines, shading, Action::Fit] {
             assert_eq!(why(action, all), None);
         }
-        let polygons = Holds { splats: false, transparent: false, pages: false };
+        let polygons = Holds { splats: false, transparent: false };
         let told = [Action::SplatScale(2.0), Action::Layers(1), outlines]
             .map(|action| why(action, polygons).unwrap());
         assert!(
@@ -69,8 +65,5 @@ mod tests {
                 && told[2].starts_with("outlines")
         );
         assert_eq!(why(shading, polygons), None);
-        let pages = Holds { pages: true, ..all };
-        assert!(why(Action::SplatScale(2.0), pages).unwrap().contains("pages"));
-        assert_eq!(why(outlines, pages), None);
     }
 }

@@ -7,6 +7,7 @@ use surfel::{Error, ErrorKind, Result, scene::Settings};
 use super::{
     anchor::Anchor,
     device::{is_device_lost, open_again},
+    document::Document,
     meanwhile::Before,
     ui::Ui,
     viewer::Viewer,
@@ -29,8 +30,10 @@ impl Viewer {
             self.tell(&error.to_string());
             self.settings = settings;
             // What was made transparent since then has no eye-dome lighting.
-            let scene = self.document.as_ref().map(|document| &document.scene);
-            if scene.is_some_and(|scene| self.edits.check(scene, &self.settings).is_err()) {
+            let is_refused = |document: &Document| {
+                self.edits.check(&document.scene, &document.paged, &self.settings).is_err()
+            };
+            if self.document.as_ref().is_some_and(is_refused) {
                 self.settings.shading = Settings::default().shading;
             }
             if let Some(navigation) = &mut self.navigation {

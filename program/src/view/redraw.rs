@@ -261,7 +261,7 @@ impl Viewer {
 
     /// As all of it is drawn: levels of detail that were made for moving pictures are for those alone.
     pub fn at_rest(&self, settings: &Settings) -> Settings {
-        let has_levels = |document: &Document| document.paged.is_some() || document.scene.has_levels();
+        let has_levels = |document: &Document| !document.paged.is_empty() || document.scene.has_levels();
         let own = self.document.as_ref().is_some_and(has_levels);
         let lod = match settings.lod {
             Lod::Auto if !own => Lod::Px(0.0),

@@ -7,7 +7,8 @@ use surfel::{
 
 use super::{
     compared::names,
-    edits::{Edits, things},
+    document::Document,
+    edits::Edits,
     keys::{Action, Comparing},
     told::Step,
     viewer::Viewer,
@@ -77,7 +78,7 @@ impl State {
             settings: viewer.settings.clone(),
             encoding: viewer.encoding,
             edits: viewer.edits.clone(),
-            things: viewer.document.as_ref().map(|document| things(&document.scene)).unwrap_or_default(),
+            things: viewer.document.as_ref().map(Document::things).unwrap_or_default(),
             thing: viewer.thing,
             facts,
             drawn_edges: viewer.drawn_edges(),

@@ -1,6 +1,6 @@
 //! Things of a scene by key: one is meant, which is hidden and shown, and made more and less transparent.
 
-use super::{edits, keys::OnThing, viewer::Viewer};
+use super::{keys::OnThing, viewer::Viewer};
 
 /// By keys nothing is more transparent: what is hidden has a key of its own.
 const LEAST_ALPHA: f32 = 0.1;
@@ -9,11 +9,10 @@ impl Viewer {
     /// Does what a key is for with the thing that is meant, or means the next one; says which it is, and how it is seen.
     pub fn on_thing(&mut self, what: OnThing) {
         let Some(document) = &self.document else { return };
-        let names = edits::things(&document.scene);
+        let names = document.things();
         let mut edits = self.edits.clone();
         let count = edits.things.len();
         if count == 0 {
-            self.ui.tell("a file that is read in pages is shown as it is");
             return;
         }
         if what == OnThing::Next {

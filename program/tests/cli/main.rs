@@ -17,6 +17,7 @@ mod formats;
 mod growth;
 mod hard_files;
 mod hierarchies;
+mod hierarchies_in_scenes;
 mod inputs;
 #[path = "../../../tests/common/octree_files.rs"]
 mod octree_files;

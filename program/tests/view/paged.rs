@@ -2,6 +2,7 @@
 
 use super::{
     CAMERA,
+    rest::cube,
     screen::Screen,
     window::{Folder, View, render, surfel},
 };
@@ -86,4 +87,88 @@ fn a_budget_of_splats_is_kept_by_the_window() {
         view.wait_until("what the budget allows is shown", |shot| shot.differs_from(&within) <= 8);
         view.end();
     }
+}
+
+/// Files of a command line and of a scene file, one of them turned and mirrored, beside splats and triangles: as `surfel render` draws them, and hidden, shown again and made
+/// transparent as other things are.
+#[test]
+fn several_files_come_in_pages_beside_others() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 60_000);
+    cube(&folder, "cube.obj");
+    assert_eq!(surfel(&folder, &["convert", "a.ply", "a.surfel"], &[]).code, 0);
+    let scene = |name: &str, keys: &str| {
+        let placed = "translate = [1.1, 0.2, -0.4]\nrotate_deg = [20, 60, 0]\nscale = [-0.7, 0.7, 0.7]";
+        let text = format!(
+            "[[object]]\n{keys}\nname = \"there\"\n{placed}\ncolor = [0.2, 0.5, 0.9]\n\
+             [[object]]\nbuiltin = \"sphere\"\nsplats = 3000\ntranslate = [-1, 0.6, 0.5]\nscale = 0.4\n\
+             [[object]]\nfile = \"cube.obj\"\nrepresentation = \"mesh\"\ntranslate = [-0.6, -0.8, 0.9]\nscale = 0.2\n"
+        );
+        folder.write(name, &text);
+    };
+    scene("scene.toml", "file = \"a.surfel\"");
+    scene("glass.toml", "file = \"a.ply\"\nalpha = 0.5");
+    let rest = [&["--size", "320x240", "--edges", "hard"], &CAMERA[..]].concat();
+    let words = |files: &[&'static str]| [files, &rest[..]].concat();
+    let [all, placed, glass] =
+        [&["a.surfel", "scene.toml"][..], &["scene.toml"], &["a.surfel", "glass.toml"]]
+            .map(|files| render(&folder, &words(files)));
+    assert!(placed.differs_from(&all) > 3000 && glass.differs_from(&all) > 1000);
+    let mut view = View::open(&screen, &folder, &words(&["a.surfel", "scene.toml"]));
+    view.wait_until("all pages of both are there", |shot| shot.differs_from(&all) <= 8);
+    // Of four things the third is the file of the command line.
+    screen.key("N");
+    screen.key("N");
+    screen.key("H");
+    view.wait_until("one is hidden", |shot| shot.differs_from(&placed) <= 8);
+    screen.key("H");
+    view.wait_until("it is there again", |shot| shot.differs_from(&all) <= 8);
+    screen.key("N");
+    for _ in 0..5 {
+        screen.key("less");
+    }
+    view.wait_until("the other one is transparent", |shot| shot.differs_from(&glass) <= 60);
+    screen.key("0");
+    screen.key("Escape");
+    view.wait_until("all is as it was", |shot| shot.differs_from(&all) <= 8);
+    view.end();
+    // In less memory both are coarser, and what is there as a whole is not.
+    let mut view = View::open(
+        &screen,
+        &folder,
+        &[&words(&["a.surfel", "scene.toml"])[..], &["--budget-memory", "2MB"]].concat(),
+    );
+    view.wait_until("they are coarser", |shot| {
+        let differ = shot.differs_from(&all);
+        shot.colors() > 200 && differ > 1000 && differ < 40_000
+    });
+    view.end();
+}
+
+/// A damaged file, and one that is not there, beside another one: the window tells which.
+#[test]
+fn faults_of_one_file_of_several_are_told_by_its_name() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 60_000);
+    for name in ["a.surfel", "b.surfel"] {
+        assert_eq!(surfel(&folder, &["convert", "a.ply", name], &[]).code, 0);
+    }
+    let mut bytes = std::fs::read(folder.path("b.surfel")).unwrap();
+    let at = 3 * bytes.len() / 4;
+    bytes[at] ^= 0x55;
+    std::fs::write(folder.path("b.surfel"), bytes).unwrap();
+    let rest = [&["--size", "320x240", "--edges", "hard", "--lod", "0"], &CAMERA[..]].concat();
+    let display = [("DISPLAY", screen.name())];
+    let missing = surfel(&folder, &[&["view", "a.surfel", "none.surfel"], &rest[..]].concat(), &display);
+    assert!(missing.code != 0 && missing.stderr.contains("none.surfel: cannot read"), "{}", missing.stderr);
+    let whole = render(&folder, &[&["a.surfel"], &rest[..]].concat());
+    let mut view = View::open(&screen, &folder, &[&["a.surfel", "b.surfel"], &rest[..]].concat());
+    view.wait_until("both are coarser", |shot| shot.colors() > 200 && shot.differs_from(&whole) > 500);
+    // Without the one at fault the other one is whole.
+    screen.key("N");
+    screen.key("H");
+    screen.key("Escape");
+    view.wait_until("the other one is whole", |shot| shot.differs_from(&whole) <= 8);
+    let said = view.end();
+    assert_eq!(said.stderr.matches("b.surfel: page ").count(), 1, "{}", said.stderr);
 }

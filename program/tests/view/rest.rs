@@ -49,7 +49,7 @@ fn polygons_and_points_at_rest_have_the_samples_that_render_takes() {
         let told = view.end().stderr;
         for (option, because) in [
             ("--cull", "this scene is drawn as triangles"),
-            ("--budget-memory", "it is for an opaque .surfel file by itself"),
+            ("--budget-memory", "it is for opaque .surfel files"),
             ("--lod-steps", "the window makes levels of detail of more than 300000 splats"),
         ] {
             let line = format!("{option} has no effect: {because}");

@@ -36,7 +36,7 @@ const BY_FIRST_BYTES: [(&[u8], &str); 30] = [
     (b"version https://git-lfs", "a git-lfs pointer, not the file itself (run `git lfs pull`)"),
     (
         b"\x89SURFEL",
-        "a .surfel file, which render, view and info take on the command line, and scene files and others do not",
+        "a .surfel file, which render, view and info take on the command line and in scene files, and others do not",
     ),
     (b"PK\x03\x04", "a zip archive (unpack it first)"),
     (b"PK\x05\x06", "an empty zip archive"),

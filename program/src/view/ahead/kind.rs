@@ -111,7 +111,7 @@ mod tests {
 
     fn kind(side_px: u32, is_light: bool) -> Kind {
         let settings = Settings { size_px: [side_px; 2], ..Settings::default() };
-        let scene = (&Arc::new(Scene::default()), &Edits::none(&Scene::default()), false);
+        let scene = (&Arc::new(Scene::default()), &Edits::none(&Scene::default(), &[]), false);
         let of = Of { files: 0, ..Of::new(scene, &Camera::default(), is_light) };
         Kind { camera: Camera::default(), settings, of }
     }
