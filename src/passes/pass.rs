@@ -14,6 +14,7 @@ use crate::passes::pipeline::{
     variant::Constants,
 };
 use crate::passes::{
+    last_sets::LastSets,
     place::{At, Planes, Tints},
     recording::{Pipeline, Recording},
 };
@@ -205,7 +206,7 @@ impl<'g, 'a> Pass<'g, 'a> {
         let bound = bound.into_bump_slice();
         let body = declared.arena().keep(move |context: &PassContext<'_>| match source.place {
             Place::Device(shaders, descriptors) => {
-                let (pipeline, sets) = (Cell::default(), Cell::default());
+                let (pipeline, sets) = (Cell::default(), LastSets::default());
                 let (planes, tints) = (source.planes, source.tints);
                 body(&Recording { context, shaders, descriptors, bound, pipeline, sets, planes, tints })
             }

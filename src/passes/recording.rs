@@ -5,6 +5,7 @@ use std::cell::Cell;
 use ash::vk;
 
 use crate::passes::{
+    last_sets::LastSets,
     pipeline::{cache::Shaders, key::Layout},
     place::{At, PLANES_BYTES, Place, Planes, Tints},
 };
@@ -44,12 +45,9 @@ pub(crate) struct Recording<'c, 'a> {
     pub tints: Option<Tints>,
     /// The pipeline that was bound last: chunks in a row often share one.
     pub pipeline: Cell<vk::Pipeline>,
-    /// The sets that were bound last: one scene may stand in many places.
-    pub sets: Cell<Option<BoundSets>>,
+    /// The sets that were bound last.
+    pub sets: LastSets,
 }
-
-/// Two sets of a layout, and the number of the first.
-pub(crate) type BoundSets = (Layout, u32, [vk::DescriptorSet; 2]);
 
 impl Recording<'_, '_> {
     /// The device.
@@ -152,8 +150,7 @@ impl Recording<'_, '_> {
 
     /// Binds sets of a layout from the one with this number on, where they are not those that were bound last.
     pub fn bind_sets(&self, layout: Layout, first: u32, sets: &[vk::DescriptorSet]) -> Result<()> {
-        let two = <[vk::DescriptorSet; 2]>::try_from(sets).ok().map(|two| (layout, first, two));
-        if self.sets.replace(two) == two && two.is_some() {
+        if self.sets.have(layout, first, sets) {
             return Ok(());
         }
         let (point, layout) = (layout.bind_point(), self.shaders.layout(layout)?.raw());
