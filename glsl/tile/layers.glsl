@@ -13,7 +13,7 @@ layout(constant_id = SPEC_DEPTH_PRELOADED) const bool DEPTH_PRELOADED = false; /
 layout(set = 0, binding = BIND_DEPTH_BEFORE) uniform texture2D opaque_depth;
 layout(constant_id = SPEC_STACKED) const bool STACKED = false; // as in layer.frag.glsl
 
-float weight_before[ROWS]; // of the layer before, of the invocation's pixels
+float weight_before[ROWS]; // of the layer before of each of the pixels
 
 void begin_layers()
 {

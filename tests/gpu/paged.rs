@@ -264,7 +264,7 @@ fn files_share_a_picture_and_memory_with_all_of_a_scene() {
         });
         hard.camera = camera(4.0, 0.0);
         let splats = &mut hard.scene.objects[0].splats;
-        splats.positions.iter_mut().for_each(|position| *position = *position + DVec3::new(x, 1.2, 0.5));
+        splats.positions.iter_mut().for_each(|position| *position += DVec3::new(x, 1.2, 0.5));
         hard
     };
     let view = PageView::new(&camera(4.0, 0.0), beside(0.0).settings.size_px, 0.5);
