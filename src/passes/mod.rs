@@ -4,7 +4,6 @@ pub(crate) mod cull;
 pub(crate) mod host;
 pub(crate) mod in_parts;
 pub(crate) mod inputs;
-pub(crate) mod last_sets;
 pub(crate) mod layers;
 pub(crate) mod pass;
 pub(crate) mod pick;

@@ -10,11 +10,11 @@ use std::{
 use crate::passes::pipeline::{
     cache::{MissingPipelines, Shaders},
     key::{ComputeKey, GraphicsKey, Layout},
+    last_sets::LastSets,
     recipe::{Key, PipelineRecipe},
     variant::Constants,
 };
 use crate::passes::{
-    last_sets::LastSets,
     place::{At, Planes, Tints},
     recording::{Pipeline, Recording},
 };

@@ -5,8 +5,7 @@ use std::cell::Cell;
 use ash::vk;
 
 use crate::passes::{
-    last_sets::LastSets,
-    pipeline::{cache::Shaders, key::Layout},
+    pipeline::{cache::Shaders, key::Layout, last_sets::LastSets},
     place::{At, PLANES_BYTES, Place, Planes, Tints},
 };
 use crate::{

@@ -6,6 +6,7 @@ pub(crate) mod formats;
 #[cfg(feature = "test-formulas")]
 pub(crate) mod formula;
 pub(crate) mod key;
+pub(crate) mod last_sets;
 mod made;
 pub(crate) mod recipe;
 pub(crate) mod splat_shaders;

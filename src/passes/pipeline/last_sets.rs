@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use ash::vk;
 
-use crate::passes::pipeline::key::Layout;
+use super::key::Layout;
 
 /// Two sets of a layout, and the number of the first.
 type Two = (Layout, u32, [vk::DescriptorSet; 2]);
