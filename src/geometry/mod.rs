@@ -32,6 +32,7 @@ mod up;
 
 pub(crate) use borders::at_border;
 pub use cloud::{CloudReport, Sides, splats_from_points};
+#[cfg(feature = "files")]
 pub(crate) use eigen::eigen;
 pub use facing::{is_flat_in_front, share_facing};
 pub use fitness::{Fitness, Suited};

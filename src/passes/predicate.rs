@@ -4,6 +4,8 @@
 //! one behind it. The count is copied to a buffer, from which the draws of the next layer take their number: 0 or 1, for
 //! a larger one is cut to the one that there are arguments for. A layer that is left out counts nothing itself.
 
+use ash::vk;
+
 use crate::passes::{
     inputs::Inputs,
     pass::Pass,
@@ -46,10 +48,15 @@ pub(crate) fn draw_listed(pass: &Recording<'_, '_>, arguments: At) -> Result<()>
     draw(pass, arguments, 0)
 }
 
-/// Records the draw of a mesh.
+/// Records the draw of a mesh, whose index buffer is bound.
 pub(crate) fn draw_mesh(pass: &Recording<'_, '_>, inputs: Inputs<'_>, number: usize) -> Result<()> {
-    let (arguments, fragments) = (pass.buffer(ARGUMENTS)?, pass.buffer(FRAGMENTS)?);
     let offset = (1 + inputs.draws.len() + number) as u64 * u64::from(STEP);
+    draw_indexed(pass, pass.buffer(ARGUMENTS)?, offset)
+}
+
+/// Records a draw whose arguments are another buffer's, and whose index buffer is bound.
+pub(crate) fn draw_indexed(pass: &Recording<'_, '_>, arguments: vk::Buffer, offset: u64) -> Result<()> {
+    let fragments = pass.buffer(FRAGMENTS)?;
     let (device, commands) = (pass.device(), pass.commands());
     // SAFETY: as in `draw`; the index buffer is bound.
     unsafe { device.cmd_draw_indexed_indirect_count(commands, arguments, offset, fragments, 0, 1, STEP) };

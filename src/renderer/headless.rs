@@ -12,8 +12,8 @@ use std::{
 
 use ash::vk;
 
-pub use in_parts::PartSums;
 use in_parts::Parts;
+pub use in_parts::{LayerSums, PartSums, PartsAround};
 use targets::Targets;
 
 use super::{Readbacks, Renderer, SceneFrame, Seen};

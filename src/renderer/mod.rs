@@ -21,8 +21,8 @@ use ash::vk;
 
 pub(crate) use declare::{Imports, bytes_per_pixel, declare, import_readback};
 pub use explain::{ExplainedChunk, ExplainedMesh, ExplainedPass, ExplainedUse, Explanation};
-pub use headless::{Frame, Headless, HeadlessOptions, PartSums, Wanted};
-pub use in_parts::Stage;
+pub use headless::{Frame, Headless, HeadlessOptions, LayerSums, PartSums, PartsAround, Wanted};
+pub use in_parts::{Around, PartLayer, Stage};
 #[cfg(feature = "files")]
 pub use paged::{Drawn, PagedScene, Prepare};
 pub use scene_frame::{Readbacks, SampleSum, SceneFrame, Seen};

@@ -82,6 +82,7 @@ pub use settings::Settings;
 pub use splats::{Defect, DefectCounts, Shapes, Splats};
 pub use storage::{Order, SplatFormat, Storage};
 pub use tile_memory::TileMemory;
+#[cfg(feature = "files")]
 pub(crate) use transform::is_similarity;
 pub use values::{Epsilon, Kernel};
 pub use window::Window;

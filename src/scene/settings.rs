@@ -61,8 +61,8 @@ settings! {
         "accumulate" "TYPE" accumulate: Accumulate,
         /// The largest size on the screen of a splat that stands for those below it in a hierarchy, which is made of each object then: pixels, such
         /// as 1px, or percent of the picture; 0 draws the scene itself. One pixel is as far as the filter spreads what it sees. `auto` is 1px of what has a
-        /// hierarchy already (.surfel), and else the scene itself. For `render`, by `compute` and as opaque points; what else draws all splats. The reference
-        /// draws the scene itself.
+        /// hierarchy already (.surfel), and else the scene itself. For `render`, by `compute` and as points; what else draws all splats. The reference draws the
+        /// scene itself.
         "lod" "auto|PX|PERCENT%" lod: Lod,
         /// How nodes take the place of those below them, as a camera moves away.
         "lod-steps" "HOW" lod_steps: LodSteps,

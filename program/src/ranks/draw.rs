@@ -1,10 +1,11 @@
 //! The picture: each process reads its pages, all draw, and the first one writes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use surfel::{
     Error, Result,
     levels_file::is_levels_file,
+    load::is_scene_file,
     prepare::PreparedScene,
     renderer::{Frame, Headless},
     scene::{
@@ -13,7 +14,10 @@ use surfel::{
     },
 };
 
-use super::{frame, world::Ranks};
+use super::{
+    frame::{self, Also},
+    world::Ranks,
+};
 use crate::{
     camera::CameraChoice,
     console::{self, Bars},
@@ -34,6 +38,8 @@ struct Part {
     camera: Camera,
     crop: Option<CropView>,
     settings: Settings,
+    /// Some file has transparent splats, which any process may have.
+    layered: bool,
 }
 
 /// Draws a picture together with all others.
@@ -50,12 +56,12 @@ pub fn run(arguments: &RenderArguments, ranks: &Ranks) -> Result<()> {
         let part = ranks.agree(read(headless, arguments, &drawn, &camera, ranks))?;
         let view = View { scene: &part.scene, camera: &part.camera, settings: &part.settings };
         let by_depth = part.settings.shading == Shading::EyeDome;
-        let with_depth = by_depth || arguments.picture.dump.is_some();
+        let also = Also { depth: by_depth || arguments.picture.dump.is_some(), layers: part.layered };
         if let Some(frames) = arguments.frames {
-            let table = frame::measure(headless, view, with_depth, frames, ranks)?;
+            let table = frame::measure(headless, view, also, frames, ranks)?;
             ranks.agree(if ranks.is_first() { console::print(&table) } else { Ok(()) })?;
         }
-        let of_all = frame::draw(headless, view, with_depth, ranks)?;
+        let of_all = frame::draw(headless, view, also, ranks)?;
         let written = match ranks.is_first() {
             true => write(headless, arguments, view, &of_all, part.crop, &output),
             false => Ok(()),
@@ -93,15 +99,17 @@ fn check(arguments: &RenderArguments) -> Result<(Drawn, CameraChoice, (PathBuf, 
     }
     refuse_what_is_of_films(arguments)?;
     let inputs = &arguments.picture.input.inputs;
-    let other = inputs.iter().find(|input| !is_levels_file(input));
+    let other = inputs.iter().find(|input| !is_levels_file(input) && !is_scene_file(input));
     match (other, inputs.is_empty()) {
         (None, false) => Ok((drawn, camera, output)),
-        (other, _) => {
-            let place = other.map_or_else(|| PathBuf::from("INPUT"), Clone::clone);
-            let problem = "expected a hierarchy (surfel convert MODEL FILE.surfel), of which each process (mpirun) reads a part";
-            Err(Error::input(place, "", problem))
-        }
+        (Some(other), _) => Err(no_hierarchy(other)),
+        (None, true) => Err(no_hierarchy(Path::new("INPUT"))),
     }
+}
+
+fn no_hierarchy(place: impl Into<PathBuf>) -> Error {
+    let problem = "expected a hierarchy (surfel convert MODEL FILE.surfel), of which each process (mpirun) reads a part";
+    Error::input(place, "", problem)
 }
 
 /// Reads and uploads what this process has of the view.
@@ -114,6 +122,10 @@ fn read(
 ) -> Result<Part> {
     let (picture, bars) = (&arguments.picture, Bars::new());
     let mut loaded = load_scene_with_hierarchies(&picture.input.inputs(), &bars)?;
+    // Each process would draw what it reads whole. Hierarchies are told of behind all others.
+    if loaded.inputs.len() > loaded.hierarchies.len() {
+        return Err(no_hierarchy(&loaded.inputs[0].name));
+    }
     picture.light(&mut loaded.scene);
     // One method for all, by which levels are drawn, whatever a process happens to have of them.
     let mut settings = Settings { edges: Edges::Hard, ..drawn.settings.clone() };
@@ -134,11 +146,8 @@ fn read(
         return Err(Error::option("--orthographic", problem));
     }
     let Loaded { mut scene, hierarchies: mut files, .. } = loaded;
+    let layered = files.iter().any(|file| file.header().transparent);
     for file in &files {
-        if file.header().transparent {
-            let problem = "transparent; expected opaque splats for several processes (mpirun)";
-            return Err(Error::input(file.path(), "", problem));
-        }
         if settings.epsilon == Epsilon::Auto && !file.header().closed {
             let problem = format!(
                 "{}: {} is an open surface, whose other side may be in another process (mpirun); expected a number of radii",
@@ -157,7 +166,7 @@ fn read(
     settings.check_scene(&scene)?;
     let prepared = upload(headless, &scene, &bars)?;
     headless.renderer.check_levels(&prepared, &camera, &settings)?;
-    Ok(Part { scene: prepared, camera, crop, settings })
+    Ok(Part { scene: prepared, camera, crop, settings, layered })
 }
 
 /// Shades what all have summed, and writes it.
@@ -169,7 +178,7 @@ fn write(
     crop: Option<CropView>,
     output: &(PathBuf, PictureFormat),
 ) -> Result<()> {
-    let sums = (&of_all.depth[..], &of_all.sums);
+    let sums = (&of_all.depth[..], &of_all.sums, of_all.layers.as_deref());
     let mut shade = |settings: &Settings, wanted| -> Result<Frame> {
         headless.shade_parts(view.scene, view.camera, settings, sums, wanted)
     };

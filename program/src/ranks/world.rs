@@ -61,6 +61,13 @@ impl Ranks {
         }
     }
 
+    /// What the first process says, for all of them.
+    pub fn first_says(&self, own: bool) -> bool {
+        let (own, mut most) = (u32::from(self.is_first() && own), 0_u32);
+        self.world.all_reduce_into(&own, &mut most, SystemOperation::max());
+        most > 0
+    }
+
     /// The largest of all processes' values, for all of them.
     pub fn largest_of(&self, values: &mut [f32]) {
         let mut received = vec![0.0_f32; values.len().min(NUMBERS_AT_ONCE)];

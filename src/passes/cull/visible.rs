@@ -17,6 +17,7 @@ use crate::passes::{
         block_list::ListedBlocks,
         draws::{Draw, by_variant},
     },
+    predicate::{draw_indexed, is_predicated},
     recording::{Arguments, Recording, rows_of},
 };
 use crate::{
@@ -86,15 +87,18 @@ impl VisibleDraws {
         Ok(Self { list: pass.buffer(INDICES)?, arguments: pass.buffer(VISIBLE_ARGUMENTS)? })
     }
 
-    /// Records a draw of points, one a visible splat of a chunk, inside of rendering with all bound but the indices.
-    pub fn draw(self, pass: &Recording<'_, '_>, chunk: usize) {
+    /// Records a draw of points, one a visible splat of a chunk, inside of rendering with all bound but the indices: of a layer, where the layer before is
+    /// not empty.
+    pub fn draw(self, pass: &Recording<'_, '_>, chunk: usize) -> Result<()> {
         let offset = 4 * ARGUMENT_WORDS * chunk as u64;
-        // SAFETY: as the caller has it; both buffers were declared to be read so, and hold indices within the chunk and
-        // a command a chunk.
-        unsafe {
-            pass.device().cmd_bind_index_buffer(pass.commands(), self.list, 0, vk::IndexType::UINT32);
-            pass.device().cmd_draw_indexed_indirect(pass.commands(), self.arguments, offset, 1, 20);
+        // SAFETY: as the caller has it; the buffer was declared to be read so, and holds indices within the chunk.
+        unsafe { pass.device().cmd_bind_index_buffer(pass.commands(), self.list, 0, vk::IndexType::UINT32) };
+        if is_predicated(pass) {
+            return draw_indexed(pass, self.arguments, offset);
         }
+        // SAFETY: as above; the buffer holds a command a chunk.
+        unsafe { pass.device().cmd_draw_indexed_indirect(pass.commands(), self.arguments, offset, 1, 20) };
+        Ok(())
     }
 }
 

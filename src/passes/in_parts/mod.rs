@@ -1,7 +1,8 @@
-//! A frame of opaque splats of which every device has a part, in three stages: what each sees, what each sums of what is not behind the
-//! nearest surface of all, and the picture of all sums. Splatting asks nothing else of other parts: depth by its maximum (it is reversed), sums
-//! by addition, which hosts do in between.
+//! A frame of splats of which every device has a part, in stages: what each sees, what each sums of what is not behind the nearest surface of
+//! all, and the picture of all sums. Splatting asks nothing else of other parts: depth by its maximum (it is reversed), sums by addition, which
+//! hosts do in between. Opaque splats come first, then, where there are transparent ones, layer by layer the same two stages and one that shades.
 
+pub(crate) mod layers;
 mod upload;
 
 use crate::passes::{
@@ -42,6 +43,8 @@ pub(crate) struct OfAll<'h> {
     pub depth: &'h Handle<Buffer>,
     /// The sums: colors and weights, normals and depths.
     pub sums: [&'h Handle<Buffer>; 2],
+    /// What transparent layers add up to, where there are any.
+    pub layers: Option<&'h Handle<Buffer>>,
 }
 
 /// Declares the first stage; gives the depth of the nearest surface of these splats, reversed and moved away by ε: 0 where there is none.
@@ -115,7 +118,7 @@ pub(crate) fn shade<'a>(
     graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
-    OfAll { depth, sums: [color, normal] }: OfAll<'_>,
+    OfAll { depth, sums: [color, normal], layers }: OfAll<'_>,
     (target, target_format): (&mut Handle<Image>, ash::vk::Format),
     export: bool,
 ) -> Result<Option<Exported>> {
@@ -126,12 +129,14 @@ pub(crate) fn shade<'a>(
         color: upload(graph, inputs, "color sums", color, PART_SUM_FORMAT),
         normal: upload(graph, inputs, "normal sums", normal, PART_SUM_FORMAT),
     };
+    let layers = layers.map(|layers| upload(graph, inputs, "layers", layers, PART_SUM_FORMAT));
     let opaque = Opaque { splats: Some(sums), splat_depth: Some(depth), ..Opaque::nothing(graph.arena()) };
     let surface = opaque.splats.as_ref().zip(opaque.splat_depth.as_ref());
     match surface.filter(|_| inputs.settings.shading == Shading::EyeDome) {
         Some(surface) => resolve::eye_dome::eye_dome(graph, inputs, surface, target, target_format)?,
         None => {
-            resolve::finalize::finalize(graph, inputs, &opaque, None, lights.as_ref(), target, target_format)?
+            let (layers, lights) = (layers.as_ref(), lights.as_ref());
+            resolve::finalize::finalize(graph, inputs, &opaque, layers, lights, target, target_format)?
         }
     }
     export.then(|| resolve::export::export(graph, inputs, surface)).transpose()

@@ -26,7 +26,8 @@ pub(crate) fn lists_tiles(splats: &[Draw<'_>], settings: &Settings, limits: &Lim
     settings.cull != Cull::Setup && list_has_room(blocks_of(splats), limits)
 }
 
-/// Whether the graphics pipeline draws listed splats alone, some of which [may be left out](may_leave_out) or not. Layers draw all.
+/// Whether the graphics pipeline draws listed splats alone, some of which [may be left out](may_leave_out) or not. Layers draw all, but where there are levels
+/// of detail to choose.
 pub(crate) fn lists_primitives(
     splats: &[Draw<'_>],
     leaves_out: bool,
@@ -42,7 +43,7 @@ pub(crate) fn lists_primitives(
     let has_levels = splats.iter().any(|draw| draw.levels.is_some());
     let wanted = wanted || has_levels && Primitive::of(settings.rasterizer) == Primitive::Point;
     wanted
-        && !splats.iter().any(|draw| draw.chunk.transparent)
+        && (has_levels || !splats.iter().any(|draw| draw.chunk.transparent))
         && (has_levels || leaves_out || settings.cull == Cull::Hidden)
         && list_has_room(blocks_of(splats), limits)
         && splats.iter().all(|draw| draw.chunk.count <= MOST_INDICES)

@@ -157,11 +157,13 @@ pub(crate) fn unused_levels(
     frame: &FramePlan<'_>,
     settings: &Settings,
 ) -> Option<String> {
-    let has_levels = scene.chunks.iter().any(|chunk| chunk.stands_for_others());
-    let draws_some = |part: &SurfacePlan<'_>| part.splats.iter().any(|draw| draw.levels.is_some());
-    let draws_any = draws_some(&frame.opaque) || draws_some(&frame.transparent);
-    (has_levels && settings.tau_px() > 0.0 && !draws_any).then(|| {
-        "levels of detail (--lod, --budget) are for --rasterizer auto and compute, and for opaque points; the scene itself is drawn".to_owned()
+    let draws_none = |part: &SurfacePlan<'_>, transparent: bool| {
+        let stands = |chunk: &Chunk| chunk.stands_for_others() && chunk.transparent == transparent;
+        scene.chunks.iter().any(stands) && part.splats.iter().all(|draw| draw.levels.is_none())
+    };
+    let unused = draws_none(&frame.opaque, false) || draws_none(&frame.transparent, true);
+    (unused && settings.tau_px() > 0.0).then(|| {
+        "levels of detail (--lod, --budget) are for --rasterizer auto and compute, and for points; the scene itself is drawn".to_owned()
     })
 }
 

@@ -129,10 +129,10 @@ pub(crate) fn draw_splats(
         // Lists of large splats have numbers within their chunks.
         pass.push(Layout::Splat, &FrameConstants { first_record: 0, ..draw.told() })?;
         pass.bind(pipelines.own);
-        match (predicated, listed) {
-            (true, _) => predicate::draw_splats(pass, number)?,
-            (false, Some(visible)) => visible.draw(pass, number),
-            (false, None) => pass.draw(primitive.counts(draw.chunk.count)),
+        match listed {
+            Some(visible) => visible.draw(pass, number)?,
+            None if predicated => predicate::draw_splats(pass, number)?,
+            None => pass.draw(primitive.counts(draw.chunk.count)),
         }
         if let Some(quads) = pipelines.quads {
             pass.bind(quads);

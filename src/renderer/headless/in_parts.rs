@@ -1,5 +1,7 @@
 //! Frames in parts by the headless host: stage by stage, each of which it waits for. Who reduces over parts is the caller.
 
+mod layers;
+
 use std::{sync::Arc, time::Instant};
 
 use ash::vk;
@@ -16,12 +18,15 @@ use crate::{
     vk::{Buffer, BufferDesc, Device, MemoryUse},
 };
 
+use layers::LayerParts;
+pub use layers::{LayerSums, PartsAround};
+
 /// The sums of splats of a part, or of all: four values a pixel, row by row from the top left.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PartSums {
     /// Σ weight · linear red, green, blue; Σ weight.
     pub colors: Vec<f32>,
-    /// Σ weight · normal in view space; Σ weight · z / z_visible where it was asked for.
+    /// Σ weight · normal in view space; Σ weight · z / z_visible where it was asked for, of a transparent layer Σ weight · alpha.
     pub normals: Vec<f32>,
 }
 
@@ -32,21 +37,21 @@ pub(super) struct Parts {
     slots: [FrameSlot; 2],
     depth: Buffer,
     sums: [Buffer; 2],
+    /// Of pictures that have transparent layers.
+    layers: Option<LayerParts>,
 }
 
 impl Parts {
     fn new(device: &Device, size_px: [u32; 2]) -> Result<Self> {
-        let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
-        // Written by the device, by the host, and read by both.
-        let usage = vk::BufferUsageFlags::TRANSFER_DST | vk::BufferUsageFlags::TRANSFER_SRC;
-        let buffer = |name, bytes| {
-            Buffer::new(device, BufferDesc { name, size: pixels * bytes, usage }, MemoryUse::Readback)
-        };
         Ok(Self {
             size_px,
             slots: [(); 2].map(|()| FrameSlot::new(device)),
-            depth: buffer("depth of parts", 4)?,
-            sums: [buffer("colors of parts", 16)?, buffer("normals of parts", 16)?],
+            depth: buffer(device, size_px, "depth of parts", 4)?,
+            sums: [
+                buffer(device, size_px, "colors of parts", 16)?,
+                buffer(device, size_px, "normals of parts", 16)?,
+            ],
+            layers: None,
         })
     }
 
@@ -99,7 +104,8 @@ impl Headless {
         Ok(PartSums { colors, normals })
     }
 
-    /// The picture of all parts, by their depth and their sums. Of the scene, which may be any part, lights are taken alone.
+    /// The picture of all parts, by their depth, their sums and, where there are transparent ones, their layers, as [`Self::compose_parts`] has left them. Of
+    /// the scene, which may be any part, lights are taken alone.
     ///
     /// # Errors
     /// As [`Self::sum_part`].
@@ -108,7 +114,7 @@ impl Headless {
         scene: &PreparedScene,
         camera: &Camera,
         settings: &Settings,
-        (depth, sums): (&[f32], &PartSums),
+        (depth, sums, layers): (&[f32], &PartSums, Option<&[f32]>),
         wanted: Wanted,
     ) -> Result<Frame> {
         let mut parts = self.parts(settings)?;
@@ -118,12 +124,18 @@ impl Headless {
             // SAFETY: as above.
             unsafe { fill(buffer, values) }?;
         }
+        let layers = match layers {
+            None => None,
+            // SAFETY: as above.
+            Some(layers) => Some(unsafe { parts.fill_layers(&self.device, layers) }?),
+        };
         let begun = Instant::now();
         let wanted = Wanted { profile: None, ..wanted };
         let targets = Targets::new(&self.device, settings.size_px, wanted)?;
         let stage = Stage::Shade {
             depth: parts.depth.raw(),
             sums: parts.sums(),
+            layers,
             target: &targets.target.target(),
             readbacks: targets.readbacks(),
         };
@@ -166,6 +178,13 @@ impl Headless {
         self.queue.wait(epoch)?;
         Ok(plan)
     }
+}
+
+/// A buffer of so many bytes a pixel, which the device writes and the host, and both read.
+fn buffer(device: &Device, size_px: [u32; 2], name: &str, bytes: u64) -> Result<Buffer> {
+    let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
+    let usage = vk::BufferUsageFlags::TRANSFER_DST | vk::BufferUsageFlags::TRANSFER_SRC;
+    Buffer::new(device, BufferDesc { name, size: pixels * bytes, usage }, MemoryUse::Readback)
 }
 
 /// # Safety
