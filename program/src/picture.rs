@@ -13,6 +13,7 @@ use surfel::{
 
 use crate::{
     camera::CameraArguments,
+    console,
     inputs::InputArguments,
     scene::Loaded,
     settings::{Given, Taken},
@@ -24,7 +25,8 @@ pub struct PictureArguments {
     #[command(flatten)]
     pub input: InputArguments,
 
-    /// The picture: .png is 8-bit sRGB, .exr is linear 32-bit floats [default: surfel.png, or reference.png of `surfel reference`]
+    /// The picture: .png is 8-bit sRGB, .exr is linear 32-bit floats; what --background none leaves open is alpha, which colors are multiplied by in .exr, and
+    /// not in .png [default: surfel.png, or reference.png of `surfel reference`]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 
@@ -34,7 +36,8 @@ pub struct PictureArguments {
     pub dump: Option<PathBuf>,
 
     /// Draw only this part of the picture, in pixels from its top left corner: it may be larger than the device can draw. The pixels are
-    /// those of the whole picture where points draw both, or tiles with --cull setup; else but for rounding
+    /// those of the whole picture where points draw both, or tiles with --cull setup; else but for rounding, by which a splat or a
+    /// triangle may cover a pixel more or less at its edge
     #[arg(long, value_name = "X,Y,W,H", value_parser = Crop::parse, allow_hyphen_values = true)]
     pub crop: Option<Crop>,
 
@@ -130,6 +133,26 @@ impl PictureArguments {
         Settings { samples, edges, ..settings }
     }
 
+    /// Tells where pixels were asked to be covered in part, and how splats are drawn does not do that.
+    ///
+    /// # Errors
+    /// As [`Renderer::covers_in_part`].
+    pub fn tell_of_edges(
+        &self,
+        settings: &Settings,
+        (scene, camera): (&PreparedScene, &Camera),
+        renderer: &Renderer,
+    ) -> Result<()> {
+        let is_asked = self.settings.says("edges") && settings.edges == Edges::Coverage;
+        if is_asked && settings.samples.0 == 1 && !renderer.covers_in_part(scene, camera, settings)? {
+            console::say(
+                "--edges coverage has no effect: it is for splats by tiles, with a filter that widens them, that are shaded by their normals and not as large as \
+                 the picture; --samples 8 does the same for all",
+            );
+        }
+        Ok(())
+    }
+
     /// What is drawn, of a picture with those settings: the whole of it, or a part.
     ///
     /// # Errors
@@ -138,7 +161,7 @@ impl PictureArguments {
         settings.validate()?;
         let whole_px = settings.size_px;
         let crop = self.crop.unwrap_or(Crop { corner_px: [0; 2], size_px: whole_px });
-        let drawn_px = crop.view(whole_px, &Camera::default())?.drawn_px;
+        let drawn_px = crop.view_shaded(whole_px, &Camera::default(), settings.shading)?.drawn_px;
         let settings = Settings { size_px: drawn_px, ..settings };
         Ok(Drawn { whole_px, crop: self.crop, settings })
     }
@@ -188,7 +211,8 @@ impl Drawn {
     /// # Errors
     /// A part that is not within the picture.
     pub fn view(&self, camera: Camera) -> Result<(Camera, Option<CropView>)> {
-        let view = self.crop.map(|crop| crop.view(self.whole_px, &camera)).transpose()?;
+        let shading = self.settings.shading;
+        let view = self.crop.map(|crop| crop.view_shaded(self.whole_px, &camera, shading)).transpose()?;
         Ok((view.map_or(camera, |view| view.camera), view))
     }
 }

@@ -166,6 +166,9 @@ fn draw(
     if arguments.explain && settings.samples != said {
         console::print(if settings.edges == Edges::Hard { HARD } else { CUT })?;
     }
+    if arguments.is_written() {
+        picture.tell_of_edges(settings, (&prepared, &camera), &headless.renderer)?;
+    }
     let Loaded { inputs, ball, scene, .. } = loaded;
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);

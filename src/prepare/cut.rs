@@ -23,7 +23,7 @@ use super::{
 use crate::{
     error::Result,
     geometry::{Overlaps, at_border},
-    scene::{Bounds, Clip, DefectCounts, Epsilon, Object, Opacity, Order, Room, Scene, SplatFormat},
+    scene::{Bounds, Clip, DefectCounts, Epsilon, Object, Opacity, Order, Room, Scene, Shapes, SplatFormat},
     vk::Limits,
 };
 
@@ -178,8 +178,8 @@ impl Cut<'_, '_> {
         let (splats, storage) = (&object.splats, self.prepared.storage);
         let transparent = levels
             .map_or_else(|| splats.colors.opacity() != Opacity::Opaque, |(leveled, _)| leveled.transparent);
-        // Packed disks have no room for a share.
-        let exact = storage.format == SplatFormat::Exact;
+        // Packed disks have no room for a share; ellipses are never packed.
+        let exact = storage.format == SplatFormat::Exact || matches!(splats.shapes, Shapes::Ellipses { .. });
         self.step(0); // so that a bar is there meanwhile
         let one_for_all = |overlap: f64| vec![overlap.recip() as f32; splats.len()];
         let is_of_cells = levels.is_some_and(|(_, levels)| levels.part == LevelPart::OfCells);

@@ -1,7 +1,7 @@
 //! How far behind the nearest splat others belong to one surface, for each splat by itself.
 
 use super::near_surfaces::shares;
-use crate::scene::{Epsilon, Object, Opacity, Scene, Settings, SplatFormat};
+use crate::scene::{Epsilon, Object, Opacity, Scene, Settings, Shapes, SplatFormat};
 
 /// The rule for the splats of an object.
 pub(super) enum EpsilonRule {
@@ -30,10 +30,11 @@ impl EpsilonRule {
                 let object = &scene.objects[object];
                 let radii = if opacity == Opacity::Transparent { 2.0 } else { 1.0 };
                 // The far side of what is closed and opaque is not drawn, and where pixels are covered in part no opaque surface has both
-                // sides. Packed splats have no room for a share.
+                // sides. Packed disks have no room for a share.
                 let one_side = object.closed || settings.covers_in_part();
                 let sides = opacity == Opacity::Transparent || !one_side || !object.splats.clips.is_empty();
-                let exact = scene.storage.format == SplatFormat::Exact;
+                let ellipses = matches!(object.splats.shapes, Shapes::Ellipses { .. });
+                let exact = scene.storage.format == SplatFormat::Exact || ellipses;
                 Self::Radii(radii, (sides && exact).then(|| shares(&object.splats, radii)))
             }
         }

@@ -1,6 +1,6 @@
 //! A part of a picture that is drawn alone, as if it were cut out of the whole.
 
-use super::{Camera, OptionValue, Window};
+use super::{Camera, OptionValue, Shading, Window};
 use crate::error::{Error, Result};
 
 /// A rectangle of whole pixels.
@@ -27,12 +27,23 @@ pub struct CropView {
 /// Tiles count rows from a multiple of this (`glsl/tile/work.glsl`), and blocks of pixels of rasterizers divide it.
 const ALIGNED_PX: u32 = 8;
 
+/// So far are the neighbors of a pixel whose depths eye-dome lighting compares: a knight's move (`glsl/eye_dome.frag.glsl`).
+const EYE_DOME_REACH_PX: u32 = 2;
+
 impl Crop {
     /// How to draw this part of a picture of that size.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Option`] where it is not within the picture.
     pub fn view(self, whole_px: [u32; 2], camera: &Camera) -> Result<CropView> {
+        self.view_shaded(whole_px, camera, Shading::default())
+    }
+
+    /// The same, of a picture that is shaded so.
+    ///
+    /// # Errors
+    /// As [`Self::view`].
+    pub fn view_shaded(self, whole_px: [u32; 2], camera: &Camera, shading: Shading) -> Result<CropView> {
         let end_px = |i: usize| u64::from(self.corner_px[i]) + u64::from(self.size_px[i]);
         let within = |i: usize| self.size_px[i] > 0 && end_px(i) <= u64::from(whole_px[i]);
         if !(within(0) && within(1)) {
@@ -40,10 +51,13 @@ impl Crop {
             let problem = format!("{}: expected a part of {width}x{height} pixels (--size)", self.word());
             return Err(Error::option("--crop", problem));
         }
-        let first_px = self.corner_px.map(|at| at / ALIGNED_PX * ALIGNED_PX);
+        // What pixels depend on is drawn, too.
+        let border_px = if shading == Shading::EyeDome { EYE_DOME_REACH_PX } else { 0 };
+        let first_px = self.corner_px.map(|at| at.saturating_sub(border_px) / ALIGNED_PX * ALIGNED_PX);
         let inside_px = [0, 1].map(|i| self.corner_px[i] - first_px[i]);
+        let last_px = [0, 1].map(|i| (end_px(i) + u64::from(border_px)).min(whole_px[i].into()) as u32);
         Ok(CropView {
-            drawn_px: [0, 1].map(|i| inside_px[i] + self.size_px[i]),
+            drawn_px: [0, 1].map(|i| last_px[i] - first_px[i]),
             camera: Camera {
                 window: Window { whole_px: Some(whole_px), corner_px: first_px.map(f64::from) },
                 ..*camera
@@ -104,6 +118,12 @@ mod tests {
         assert_eq!(view.camera.middle_px(view.drawn_px), [2.0, -6.5]);
         let drawn: Vec<u32> = (0..15).collect();
         assert_eq!(view.cut(&drawn), [3, 4, 8, 9, 13, 14]);
+        // With what is two pixels away, as far as there is some.
+        let view = crop.view_shaded([20, 20], &Camera::default(), Shading::EyeDome).unwrap();
+        assert_eq!((view.drawn_px, view.size_px()), ([7, 12], [2, 3]));
+        assert_eq!(view.camera.window.corner_px, [8.0, 8.0]);
+        let drawn: Vec<u32> = (0..84).collect();
+        assert_eq!(view.cut(&drawn), [59, 60, 66, 67, 73, 74]);
         assert!(view.cut::<u8>(&[]).is_empty());
         for outside in ["19,0,2,1", "0,17,1,3", "4294967295,0,1,1"] {
             let error = Crop::parse(outside).unwrap().view([20, 19], &Camera::default()).unwrap_err();

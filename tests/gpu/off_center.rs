@@ -11,7 +11,8 @@ use surfel::{
     load::builtin,
     renderer::Frame,
     scene::{
-        Accumulate, Camera, Crop, CropView, Cull, Filter, Object, Rasterizer, Scene, Settings, Transition,
+        Accumulate, Camera, Crop, CropView, Cull, Filter, Object, Rasterizer, Scene, Settings, Shading,
+        Transition,
     },
     selftest::tolerance,
 };
@@ -92,7 +93,7 @@ fn wholes_and_parts(hard: &Hard) -> [(Crop, Frame, Frame); 4] {
         |camera: &Camera, settings: &Settings| headless.render(&prepared, camera, settings, wanted).unwrap();
     let all = draw(&hard.camera, &hard.settings);
     crops().map(|crop| {
-        let view = crop.view(hard.settings.size_px, &hard.camera).unwrap();
+        let view = crop.view_shaded(hard.settings.size_px, &hard.camera, hard.settings.shading).unwrap();
         let settings = Settings { size_px: view.drawn_px, ..hard.settings.clone() };
         (crop, within(&all, crop), cut(draw(&view.camera, &settings), &view))
     })
@@ -143,6 +144,17 @@ fn a_part_of_a_picture_has_the_bits_of_the_whole() {
                 assert_same_bits(&whole, &part, &format!("{}, {rasterizer:?}, {crop:?}", hard.name));
             }
         }
+    }
+}
+
+/// Of eye-dome lighting pixels depend on others beside them, which are beyond the part.
+#[test]
+fn a_part_that_is_shaded_by_depth_has_the_bits_of_the_whole() {
+    let hard = with(&near_model(), |settings| {
+        (settings.rasterizer, settings.shading) = (Rasterizer::Perspective, Shading::EyeDome);
+    });
+    for (crop, whole, part) in wholes_and_parts(&hard) {
+        assert_same_bits(&whole, &part, &format!("{crop:?}"));
     }
 }
 

@@ -2,16 +2,17 @@
 //! no more than its bounds tell.
 
 use crate::common::{
+    bent::bent,
     builder,
     compare::{self, Errors, F32},
     oracle_of, render,
     scenes::{self, Hard, transparent},
-    shared,
+    shared, with,
 };
 use glam::DVec3;
 use surfel::{
     prepare::{LARGEST_TURN_RAD, as_packed},
-    scene::{Accumulate, Colors, Filter, Rasterizer, Scene, SplatFormat},
+    scene::{Accumulate, Colors, Epsilon, Filter, Rasterizer, Scene, SplatFormat},
     selftest::{light::compare_light, tolerance},
 };
 
@@ -100,6 +101,17 @@ fn packing_takes_no_more_from_a_picture_than_its_bounds_tell() {
     assert!(beyond.is_empty(), "{beyond:#?}");
     // Colors of 8 bits are seen: it was not the exact format that was drawn.
     assert!(exact.albedo < 1e-3 && packed.albedo > 1e-3, "{} and {}", exact.albedo, packed.albedo);
+}
+
+/// Whatever is found for each splat from what is beside it: ε, how much neighbors overlap, borders.
+#[test]
+fn pictures_of_ellipses_are_the_same_to_the_bit() {
+    let mut headless = shared();
+    for hard in [scenes::random_ellipses(Filter::Adjust), scenes::clipped(), bent(24, 4)] {
+        let hard = with(&hard, |settings| settings.epsilon = Epsilon::Auto);
+        let frames = [hard.clone(), packed(&hard)].map(|hard| render(&mut headless, &hard));
+        assert!(frames[0].linear == frames[1].linear, "{}", hard.name);
+    }
 }
 
 #[test]
