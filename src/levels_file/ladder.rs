@@ -1,5 +1,7 @@
 //! The steps in which a picture becomes finer while pages arrive: sizes, each with the pages that a view needs for it.
 
+use std::collections::BTreeSet;
+
 use super::{choose::PageView, table::PageEntry};
 
 /// A size on the screen, and what has to be there for it.
@@ -11,14 +13,16 @@ pub struct Rung {
     pub pages: Vec<usize>,
 }
 
-/// So many pages are a small step: it is not worth to draw something coarser before it.
-const SMALL_STEP: usize = 8;
+/// So many bytes are a small step: it is not worth to draw something coarser before it.
+const SMALL_STEP_BYTES: u64 = 8 << 20;
 
 /// The rungs of several views that share memory.
 #[derive(Clone, Debug, Default)]
 pub struct Ladder {
     /// Of each view: from the finest for which memory suffices to the coarsest. Each is twice as coarse as the one before, or more.
     pub views: Vec<Vec<Rung>>,
+    /// The memory that each page takes.
+    bytes: Vec<u64>,
 }
 
 /// Where a ladder's views stand.
@@ -44,26 +48,32 @@ impl Ladder {
         let all: Vec<Vec<Rung>> = views.iter().map(|view| view.rungs(pages, &is_seen)).collect();
         let most = all.iter().map(Vec::len).max().unwrap_or(0);
         let mut views = vec![Vec::new(); all.len()];
+        let bytes: Vec<u64> = pages.iter().map(bytes).collect();
         for height in 0..most {
             let at = |rungs: &'_ Vec<Rung>| rungs.get(height).or(rungs.last()).cloned();
             let rungs: Vec<Rung> = all.iter().filter_map(at).collect();
-            let needed: u64 = union(pages.len(), rungs.iter()).iter().map(|i| bytes(&pages[*i])).sum();
+            let needed: u64 = union(pages.len(), rungs.iter()).iter().map(|i| bytes[*i]).sum();
             if needed <= most_bytes {
                 views.iter_mut().zip(rungs).for_each(|(view, rung)| view.push(rung));
             }
         }
-        Self { views }
+        Self { views, bytes }
     }
 
-    /// What is drawn of the pages that are there, and what comes next: the next finer rung of each view, or the finest that lacks few pages. With what is drawn
+    /// What is drawn of the pages that are there, and what comes next: the next finer rung of each view, or the finest that lacks little. With what is drawn
     /// until then that takes twice the memory that the ladder was made for, and more only where views are at several heights.
-    pub fn standing(&self, is_there: &[bool]) -> Standing {
-        let lacking = |rung: &Rung| rung.pages.iter().filter(|page| !is_there[**page]).count();
+    /// A rung of which a page is `broken` never comes.
+    pub fn standing(&self, is_there: &[bool], broken: &BTreeSet<usize>) -> Standing {
+        let lacking = |rung: &Rung| -> u64 {
+            rung.pages.iter().filter(|page| !is_there[**page]).map(|page| self.bytes[*page]).sum()
+        };
         let drawn = |rungs: &Vec<Rung>| rungs.iter().position(|rung| lacking(rung) == 0);
         let drawn: Vec<Option<usize>> = self.views.iter().map(drawn).collect();
         let next = |(rungs, drawn): (&Vec<Rung>, &Option<usize>)| {
             let finer = &rungs[..drawn.unwrap_or(rungs.len())];
-            finer.iter().position(|rung| lacking(rung) <= SMALL_STEP).or(finer.len().checked_sub(1))
+            let comes = |rung: &Rung| !rung.pages.iter().any(|page| broken.contains(page));
+            let is_small = |rung: &Rung| lacking(rung) <= SMALL_STEP_BYTES && comes(rung);
+            finer.iter().position(is_small).or_else(|| finer.iter().rposition(comes))
         };
         // The coarsest first, of all views that are not as fine: what is of one height has room together.
         let height = self.views.iter().zip(&drawn).filter_map(next).max();

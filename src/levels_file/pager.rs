@@ -7,7 +7,7 @@ use std::{
     path::PathBuf,
     sync::{
         Arc, Condvar, Mutex, MutexGuard, PoisonError,
-        mpsc::{Receiver, SyncSender, TryRecvError, sync_channel},
+        mpsc::{Receiver, Sender, TryRecvError, channel},
     },
     thread::{self, JoinHandle},
 };
@@ -24,8 +24,9 @@ use crate::{
     scene::LeveledObject,
 };
 
-/// So many pages wait at most until the host takes them; then reading waits. With the one that is being read they are all that the host's memory holds.
-const MOST_WAITING: usize = 8;
+/// From so many bytes of pages on that the host has not taken, reading waits; the host takes as much at once. With the page that is being read they are all that the
+/// host's memory holds.
+const MOST_WAITING_BYTES: u64 = 32 << 20;
 
 /// Files of which a thread reads pages, each at a number of its own: those of the first file, then those of the next.
 pub struct Pager {
@@ -64,7 +65,7 @@ pub struct Arrived {
 #[derive(Default)]
 struct Wanted {
     list: Mutex<List>,
-    /// Told when there is something in the list, or it is closed.
+    /// Told when there is something in the list, what waits was taken, or it is closed.
     changed: Condvar,
 }
 
@@ -73,8 +74,9 @@ struct List {
     next: VecDeque<usize>,
     /// Begun, and not taken yet.
     begun: BTreeSet<usize>,
-    /// Read, and not taken yet.
+    /// Read, and not taken yet: pages, and the bytes that they take.
     arrived: usize,
+    arrived_bytes: u64,
     /// They are not what the file's format demands, or can't be read.
     broken: BTreeSet<usize>,
     is_closed: bool,
@@ -86,14 +88,15 @@ impl Wanted {
         self.list.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The next page, which counts as begun; waits for one. `None` at the end.
+    /// The next page, which counts as begun; waits for one, and while much has not been taken. `None` at the end.
     fn begin(&self) -> Option<usize> {
         let mut list = self.lock();
         loop {
             if list.is_closed {
                 return None;
             }
-            if let Some(page) = list.next.pop_front() {
+            let next = if list.arrived_bytes < MOST_WAITING_BYTES { list.next.pop_front() } else { None };
+            if let Some(page) = next {
                 list.begun.insert(page);
                 return Some(page);
             }
@@ -120,7 +123,7 @@ impl Pager {
         }
         let first = own.first().map_or_else(PathBuf::new, |file| file.path.clone());
         let wanted = Arc::new(Wanted::default());
-        let (sender, arrived) = sync_channel(MOST_WAITING);
+        let (sender, arrived) = channel();
         let of_thread = Arc::clone(&wanted);
         let thread = thread::Builder::new().name("pages".to_owned());
         let thread = thread
@@ -150,6 +153,11 @@ impl Pager {
         self.wanted.changed.notify_one();
     }
 
+    /// The pages that [`Self::take`] has called broken.
+    pub fn broken(&self) -> BTreeSet<usize> {
+        self.wanted.lock().broken.clone()
+    }
+
     /// Whether something that is wanted has not been taken yet.
     pub fn is_expected(&self) -> bool {
         let list = self.wanted.lock();
@@ -168,28 +176,34 @@ impl Pager {
     pub fn take(&self, is_needed: impl Fn(usize) -> bool, wait: bool) -> Result<Vec<Arrived>> {
         let Some(receiver) = &self.arrived else { return Ok(Vec::new()) };
         let mut of_files: BTreeMap<usize, Vec<(usize, Page)>> = BTreeMap::new();
-        let mut take = |(number, page): (usize, Result<Page>)| -> Result<()> {
+        let mut taken_bytes = 0;
+        let mut take = |(number, page): (usize, Result<Page>)| -> Result<u64> {
+            let bytes = self.pages[number].host_bytes();
+            taken_bytes += bytes;
             let mut list = self.wanted.lock();
             list.begun.remove(&number);
             list.arrived = list.arrived.saturating_sub(1);
+            list.arrived_bytes = list.arrived_bytes.saturating_sub(bytes);
             if page.is_err() {
                 list.broken.insert(number);
             }
             drop(list);
+            self.wanted.changed.notify_one();
             let page = page?;
             if is_needed(number) {
                 of_files.entry(file_of(&self.files, number)).or_default().push((number, page));
             }
-            Ok(())
+            Ok(taken_bytes)
         };
+        let mut bytes = 0;
         if wait && self.is_expected() {
             // The thread ends with the pager alone.
-            receiver.recv().map_or(Ok(()), &mut take)?;
+            bytes = receiver.recv().map_or(Ok(0), &mut take)?;
         }
-        // No more than wait at once: a thread that is as fast as this would fill all memory.
-        for _ in 0..MOST_WAITING {
+        // No more than waits at once: a thread that is as fast as this would fill all memory.
+        while bytes < MOST_WAITING_BYTES {
             match receiver.try_recv() {
-                Ok(arrived) => take(arrived)?,
+                Ok(arrived) => bytes = take(arrived)?,
                 Err(TryRecvError::Empty | TryRecvError::Disconnected) => break,
             }
         }
@@ -226,14 +240,18 @@ impl Drop for Pager {
 fn read_all<R: Read + Seek>(
     mut files: Vec<(Range<usize>, LevelsFile<R>)>,
     wanted: &Wanted,
-    arrived: &SyncSender<(usize, Result<Page>)>,
+    arrived: &Sender<(usize, Result<Page>)>,
 ) {
     while let Some(number) = wanted.begin() {
         let Some((pages, file)) = files.iter_mut().find(|(pages, _)| pages.contains(&number)) else {
             continue;
         };
-        let page = file.page(number - pages.start);
-        wanted.lock().arrived += 1;
+        let (own, bytes) = (number - pages.start, file.pages()[number - pages.start].host_bytes());
+        let page = file.page(own);
+        let mut list = wanted.lock();
+        list.arrived += 1;
+        list.arrived_bytes += bytes;
+        drop(list);
         if arrived.send((number, page)).is_err() {
             return;
         }

@@ -14,13 +14,20 @@ use super::{
 use crate::{
     geometry::{
         Overlaps,
-        hierarchy::{Hierarchy, NO_NODE, TopNode, by_spread},
+        hierarchy::{Hierarchy, NO_NODE, Node, TopNode, by_spread},
     },
     scene::{Colors, ErrorBall, Shapes, Splats},
 };
 
 /// How many splats a page gets at most: so that about a MB is read at once.
 const PAGE_SPLATS: usize = 1 << 14;
+
+/// What is below a node of at most so many splats, and below none larger of that size, has pages of its own, so that a view next to the surface reads few of them. With fewer,
+/// pages are small and many, and each has the parents of its splats.
+const LEAST_REGION_SPLATS: u64 = 1 << 15;
+
+/// Nor is a region less than this part of all splats of a file: more pages are looked at by each view.
+const MOST_REGIONS: u64 = 64;
 
 /// From so many splats on a page ends where others begin whose parents spread less by half an octave. What is below a large parent may be drawn
 /// from afar however small it is: by sizes of their own, few of those would ask for every page.
@@ -44,10 +51,10 @@ impl Root {
     }
 }
 
-/// Writes all of a part but its root. `overlaps`: those of its splats, and the file's.
+/// Writes all of a part but its root. `overlaps`: those of its splats, and the file's; `of_splats`: how many the file has.
 pub(super) fn write_part<W: Write + Seek>(
     writer: &mut Writer<W>,
-    splats: &Splats,
+    (splats, of_splats): (&Splats, u64),
     hierarchy: &Hierarchy,
     overlaps: (&Overlaps, f64),
 ) -> io::Result<Root> {
@@ -58,7 +65,9 @@ pub(super) fn write_part<W: Write + Seek>(
     }
     let ball = |number: u32| bounds.get(number as usize).map_or(ErrorBall::ABOVE_ROOT, |bounds| bounds.error);
     let weights = hierarchy.weights(splats, overlaps);
+    let regions = regions(tree, (of_splats / MOST_REGIONS).max(LEAST_REGION_SPLATS) as usize);
     let sorted = by_spread(tree.len() - 1, |i| ball(tree[1 + i].parent).spread);
+    let sorted = by_region(sorted, |i| regions[1 + i]);
     for pages in runs(&sorted) {
         let which = sorted[pages].iter().map(|(i, _)| 1 + *i as usize);
         let own = which.clone().map(|i| (bounds[i].error, weights[i])).collect();
@@ -66,6 +75,7 @@ pub(super) fn write_part<W: Write + Seek>(
         writer.page(Page::of(hierarchy.drawn_nodes(which), parents, ball, Told::Nodes(own)))?;
     }
     let sorted = by_spread(order.len(), |i| ball(leaf_parents[i]).spread);
+    let sorted = by_region(sorted, |i| regions[leaf_parents[i] as usize]);
     for pages in runs(&sorted) {
         let places = sorted[pages].iter().map(|(place, _)| *place as usize);
         let numbers = places.clone().map(|place| order[place] as usize);
@@ -117,6 +127,25 @@ pub(super) fn write_top<W: Write + Seek>(
         writer.page(Page::of(splats.picked(which), parents, ball, Told::Nodes(own)))?;
     }
     Ok(())
+}
+
+/// For each node the region of at most so many splats that it is in: one more than the first place of those; 0 above all regions.
+fn regions(tree: &[Node], most: usize) -> Vec<u32> {
+    let mut regions = vec![0; tree.len()];
+    for (i, node) in tree.iter().enumerate() {
+        let around = regions.get(node.parent as usize).copied().unwrap_or(0);
+        regions[i] = match around {
+            0 if node.splats.len() <= most => node.splats.start + 1,
+            around => around,
+        };
+    }
+    regions
+}
+
+/// The same numbers with all of a region together, in the order in which they were.
+fn by_region(mut sorted: Vec<(u32, i32)>, region: impl Fn(usize) -> u32) -> Vec<(u32, i32)> {
+    sorted.sort_by_key(|(number, _)| region(*number as usize));
+    sorted
 }
 
 /// Nodes that are gathered one by one.

@@ -72,7 +72,12 @@ pub fn write_object(
     let header = save::create(path, |file| {
         let written = || -> io::Result<Header> {
             let mut writer = Writer::new(file, form)?;
-            let root = write_part(&mut writer, splats, &hierarchy, (&overlaps, overlaps.mean))?;
+            let root = write_part(
+                &mut writer,
+                (splats, splats.len() as u64),
+                &hierarchy,
+                (&overlaps, overlaps.mean),
+            )?;
             write_top(&mut writer, &[], &[(root, None)], color)?;
             writer.finish(header)
         };

@@ -163,7 +163,7 @@ impl PagedScene {
                 format!("{} bytes; expected more, for the coarsest pages of the views", self.most_bytes);
             return Err(Error::option("memory", problem));
         }
-        let mut standing = ladder.standing(&self.is_there);
+        let mut standing = ladder.standing(&self.is_there, &self.pager.broken());
         self.pager.want(&standing.missing);
         self.is_full = false;
         let mut is_needed = vec![false; pages.len()];
@@ -173,7 +173,7 @@ impl PagedScene {
             for arrived in arrived {
                 self.add(arrived, &is_needed, prepare)?;
             }
-            standing = ladder.standing(&self.is_there);
+            standing = ladder.standing(&self.is_there, &self.pager.broken());
             self.pager.want(&standing.missing);
         }
         let drawn = ladder.views.iter().zip(standing.drawn);

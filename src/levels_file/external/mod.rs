@@ -124,7 +124,8 @@ pub fn convert_splats(
             top.add(number, &splats, &hierarchy);
             let overlaps = Overlaps::of(&splats);
             let overlap = *overlap.get_or_insert(overlaps.mean);
-            let root = write_part(&mut writer, &splats, &hierarchy, (&overlaps, overlap)).map_err(fail)?;
+            let root = write_part(&mut writer, (&splats, rows.count()), &hierarchy, (&overlaps, overlap));
+            let root = root.map_err(fail)?;
             roots.push((root, top.parent_of(number)));
         }
         progress.step(&task, tree.parts.len() as u64, tree.parts.len() as u64);

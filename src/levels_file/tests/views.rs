@@ -98,6 +98,23 @@ fn a_view_reads_all_that_it_draws_and_leaves_out_much() {
     assert!(of(1, 2) <= pages / 4 && of(3, 0) < of(0, 0) && of(5, 2) == 0, "{read:?} of {pages}");
 }
 
+/// Next to the surface few pages hold what is in the picture, of all sizes below it: pages are together in space, not only in size.
+#[test]
+fn a_view_next_to_the_surface_reads_little() {
+    let bytes = written(&relief(300_000));
+    let camera =
+        Camera { eye: [0.0, 0.0, 1.2].into(), fov_y_rad: 0.05, near: Some(0.01), ..Camera::default() };
+    let view = PageView::new(&camera, SIZE_PX, 0.0);
+    let near = opened(&bytes).unwrap().load(Some(&view), u64::MAX, &()).unwrap().object;
+    // Of both sides that the view's axis meets.
+    println!("{} of 300000 splats", near.leaves.len());
+    assert!((1000..75_000).contains(&near.leaves.len()), "{}", near.leaves.len());
+    // And pages are not so small that what is told of them costs much.
+    let file = opened(&bytes).unwrap();
+    let header = file.header();
+    assert!(u64::from(header.pages) * 512 < header.splats + header.nodes, "{} pages", header.pages);
+}
+
 #[test]
 fn what_memory_does_not_suffice_for_is_drawn_coarser() {
     let bytes = written(&relief(150_000));

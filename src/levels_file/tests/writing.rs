@@ -54,7 +54,7 @@ fn write(object: &Object, out: &mut (impl Write + Seek)) -> io::Result<Header> {
     let header = opened(&bytes).unwrap().header().clone();
     let mut writer = Writer::new(out, form)?;
     let overlaps = Overlaps::of(&object.splats);
-    let root = write_part(&mut writer, &object.splats, &hierarchy, (&overlaps, overlaps.mean))?;
+    let root = write_part(&mut writer, (&object.splats, 1), &hierarchy, (&overlaps, overlaps.mean))?;
     write_top(&mut writer, &[], &[(root, None)], None)?;
     writer.finish(header)
 }
