@@ -139,6 +139,10 @@ impl Renderer {
     #[cfg(feature = "inside")]
     pub fn check_levels(&self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<()> {
         let arena = Arena::new();
+        let asked = match settings.budget {
+            Budget::Splats(_) => ("--budget", settings.budget.word()),
+            Budget::Unlimited => ("--lod", settings.lod.word()),
+        };
         let settings = &*passes::within_budget(&arena, &[Placed::at_home(scene)], camera, settings);
         let frame = passes::FramePlan::new(&arena, &[Placed::at_home(scene)], camera, settings, &self.limits);
         match passes::unused_levels(scene, &frame, settings) {
@@ -146,7 +150,7 @@ impl Renderer {
             Some(_) => {
                 let problem = "these settings draw no levels of detail, and the splats below them were not read; expected --rasterizer auto or \
                      compute, or --lod 0";
-                Err(Error::option("--lod", format!("{}: {problem}", settings.lod.word())))
+                Err(Error::option(asked.0, format!("{}: {problem}", asked.1)))
             }
         }
     }
@@ -200,7 +204,7 @@ impl Renderer {
                 .chain(passes::unused_levels(scene, &frame, settings))
                 .chain(passes::unused_sums(&frame, settings))
                 .collect(),
-            levels: levels(&draws, settings),
+            levels: levels([frame.opaque.splats, frame.transparent.splats].concat(), settings),
             floors: passes::floors(&frame),
             chunks: chunks.collect(),
             meshes: meshes.collect(),
@@ -215,8 +219,8 @@ impl Renderer {
     }
 }
 
-/// `settings`: those with the size for their budget.
-fn levels(draws: &[passes::Draw<'_>], settings: &Settings) -> Option<String> {
+/// Of what is drawn. `settings`: those with the size for their budget.
+fn levels(draws: Vec<passes::Draw<'_>>, settings: &Settings) -> Option<String> {
     let tau_px = settings.tau_px();
     let has_any = draws.iter().any(|draw| draw.levels.is_some());
     has_any.then(|| {

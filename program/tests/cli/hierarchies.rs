@@ -88,8 +88,18 @@ fn a_pixel_is_the_default_where_there_are_levels() {
 fn a_budget_is_filled_and_what_is_none_is_refused() {
     let folder = folder("60k");
     done(&folder, &["convert", "splats.ply", "a.surfel"]);
-    for (file, most) in [("splats.ply", 500_u64), ("splats.ply", 3000), ("a.surfel", 3000)] {
-        let (_, told) = picture(&folder, &[file, "--budget", &most.to_string(), "--explain"]);
+    let whole: &[&str] = &[];
+    // Of what a plane cuts open the inside is seen, and what it cuts off is not drawn.
+    let cut: &[&str] = &["--clip-plane", "1,0,0,0"];
+    for (file, most, plane) in [
+        ("splats.ply", 500_u64, whole),
+        ("splats.ply", 3000, whole),
+        ("a.surfel", 3000, whole),
+        ("splats.ply", 3000, cut),
+        ("a.surfel", 3000, cut),
+    ] {
+        let budget = most.to_string();
+        let (_, told) = picture(&folder, &[&[file, "--budget", &budget, "--explain"], plane].concat());
         let words = format!("px on the screen are drawn as one, for --budget {most}");
         assert!(told.contains(&words), "{told}");
         let drawn = told.split_once("; ").and_then(|(_, rest)| rest.split_once(" splats are set up"));
@@ -110,6 +120,13 @@ fn a_budget_is_filled_and_what_is_none_is_refused() {
     for word in ["-1", "inf", "wide", "1pixel"] {
         refused(&["render", "splats.ply", "--lod", word], "expected");
     }
+    // Named by what was given.
+    let unread = "--budget: 3000: these settings draw no levels of detail";
+    let quads = surfel(
+        &folder,
+        &["render", "a.surfel", "--size", "96x96", "--rasterizer", "quad", "--budget", "3000"],
+    );
+    assert!(quads.code == 1 && quads.stderr.contains(unread), "{}", quads.stderr);
     refused(&["bench", "growth", "--budget", "0"], "expected none, or a number of splats from 1 on");
     refused(&["bench", "table1", "--budget", "5k"], "only growth draws levels of detail");
 }

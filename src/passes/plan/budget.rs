@@ -10,12 +10,14 @@
 
 use std::borrow::Cow;
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use crate::{
     arena::{Arena, ArenaVec},
+    inline_vec::InlineVec,
+    passes::plan::planes::if_they_cut,
     prepare::{Chunk, Group, Placed, Refinements},
-    scene::{Backfaces, Budget, Camera, ErrorBall, Filter, LeveledObject, Lod, Settings, ViewFromWorld},
+    scene::{Budget, Camera, ErrorBall, Filter, LeveledObject, Lod, MOST_PLANES, Settings, ViewFromWorld},
 };
 
 /// The part of a budget that is given out. Of 74 pairs of a view and a budget 98.6 to 99.8% was filled (`benches/README.md`).
@@ -44,8 +46,10 @@ pub(crate) fn within_budget<'s>(
     let most = (SHARE * f64::from(most)) as i64 - others as i64;
     let asked_px = settings.tau_px();
     let mut counted = Counted { arena, nodes: arena.growing() };
+    let cut = &*if_they_cut(scenes, settings);
     for Placed { scene, at, .. } in scenes {
-        counted.add(&scene.refinements, &at.camera(camera), settings);
+        let planes = cut.clip().into_iter().map(|plane| at.plane(plane)).collect();
+        counted.add(&scene.refinements, (&at.camera(camera), planes), cut);
     }
     let tau_px = counted.tau_px(most).max(asked_px);
     Cow::Owned(Settings { lod: Lod::Px(tau_px), ..settings.clone() })
@@ -56,7 +60,7 @@ pub fn count_drawn(objects: &[LeveledObject], camera: &Camera, settings: &Settin
     let refinements: Vec<Refinements> = objects.iter().map(Refinements::of).collect();
     let arena = Arena::new();
     let mut counted = Counted { arena: &arena, nodes: arena.growing() };
-    counted.add(&refinements, camera, settings);
+    counted.add(&refinements, (camera, settings.clip()), settings);
     counted.count(tau_px).max(0) as u64
 }
 
@@ -68,11 +72,11 @@ struct Counted<'m> {
 }
 
 impl Counted<'_> {
-    /// Adds those that a camera sees.
-    fn add(&mut self, objects: &[Refinements], camera: &Camera, settings: &Settings) {
+    /// Adds those that a camera sees of objects that planes cut, both in the objects' space.
+    fn add(&mut self, objects: &[Refinements], (camera, planes): (&Camera, Planes), settings: &Settings) {
         let blended_size = settings.blended_size() as f32;
         for object in objects {
-            let view = View::new(object, camera, settings);
+            let view = View::new(object, (camera, planes), settings);
             let sizes_px = self.arena.list(object.all.iter().map(|node| view.size_px(&node.ball)));
             self.nodes.reserve(2 * object.all.len());
             for (node, size_px) in object.all.iter().zip(sizes_px) {
@@ -124,6 +128,9 @@ impl Counted<'_> {
     }
 }
 
+/// Planes that cut an object, in its space.
+type Planes = InlineVec<DVec4, MOST_PLANES>;
+
 /// A camera, as an object is seen.
 struct View {
     view: ViewFromWorld,
@@ -132,6 +139,7 @@ struct View {
     near: f64,
     is_orthographic: bool,
     culls: bool,
+    planes: Planes,
     filter_px: f64,
     /// Of the picture from where the axis meets it: left and top, right and bottom.
     edges_px: [[f64; 2]; 2],
@@ -139,7 +147,7 @@ struct View {
 }
 
 impl View {
-    fn new(object: &Refinements, camera: &Camera, settings: &Settings) -> Self {
+    fn new(object: &Refinements, (camera, planes): (&Camera, Planes), settings: &Settings) -> Self {
         let middle_px = camera.middle_px(settings.size_px);
         let edges_px = [0, 1].map(|i| [-middle_px[i], f64::from(settings.size_px[i]) - middle_px[i]]);
         Self {
@@ -148,11 +156,8 @@ impl View {
             focal_px: camera.focal_px(settings.size_px[1]),
             near: camera.near(),
             is_orthographic: camera.is_orthographic(),
-            culls: match settings.backfaces {
-                Backfaces::Auto => object.solid,
-                Backfaces::Flip => false,
-                Backfaces::Cull => true,
-            },
+            culls: settings.culls(object.solid),
+            planes,
             filter_px: if settings.filter == Filter::None {
                 0.0
             } else {
@@ -185,11 +190,11 @@ impl View {
         }
         let place = self.place(ball);
         let facing = if self.culls { self.facing(place, group) } else { 1.0 };
-        if facing > 0.0 && self.is_inside(self.view.point(place), group.half_axis) {
-            (f64::from(count) * facing).round() as i16
-        } else {
-            0
-        }
+        let is_seen = || {
+            let p = self.view.point(place);
+            self.is_inside(p, group.half_axis) && !self.is_cut_off(place, p.z, group.half_axis)
+        };
+        if facing > 0.0 && is_seen() { (f64::from(count) * facing).round() as i16 } else { 0 }
     }
 
     /// Which part of a group faces the eye.
@@ -206,6 +211,15 @@ impl View {
         let square = (127.0_f64.powi(2) - mean.length_squared()).max(0.0);
         let half = (1.5 * square * ray.length_squared()).sqrt();
         if toward.abs() < half { 0.5 + 0.5 * toward / half } else { is_facing }
+    }
+
+    /// As a device finds it of splats (`glsl/mark_visible.comp.glsl`): beyond a plane by so much that nothing of it is left.
+    fn is_cut_off(&self, place: DVec3, z: f64, half_axis: f32) -> bool {
+        let reach = 2.0 * f64::from(half_axis);
+        let in_front = self.is_orthographic || reach <= 0.25 * z;
+        let px = if self.is_orthographic { self.focal_px } else { self.focal_px / z };
+        let beyond = |plane: &DVec4| (plane.truncate().dot(place) + plane.w) * px < -2.0 * reach * px - 16.0;
+        in_front && self.planes.iter().any(beyond)
     }
 
     /// As a device finds it of splats (`glsl/mark_visible.comp.glsl`).
@@ -253,7 +267,7 @@ mod tests {
                 let settings = Settings { size_px, budget: Budget::Splats(most), ..Settings::default() };
                 let arena = Arena::new();
                 let mut counted = Counted { arena: &arena, nodes: arena.growing() };
-                counted.add(&prepared.refinements, &camera, &settings);
+                counted.add(&prepared.refinements, (&camera, settings.clip()), &settings);
                 sizes_px[i] =
                     within_budget(&arena, &[Placed::at_home(&prepared)], &camera, &settings).tau_px();
                 let drawn = counted.count(sizes_px[i]) as f64 / f64::from(most);

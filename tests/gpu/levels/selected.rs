@@ -5,7 +5,7 @@ use surfel::{
     geometry::hierarchy::{Hierarchy, Levels, Projection},
     load::builtin,
     math::random::SplitMix,
-    scene::{Backfaces, Budget, Camera, Lod, LodSteps, Settings},
+    scene::{Backfaces, Budget, Camera, ClipBox, ClipPlanes, Lod, LodSteps, Settings},
 };
 
 use super::{ball, listed};
@@ -76,7 +76,8 @@ fn what_is_blended_is_what_has_a_weight() {
     assert!(blended > 1000, "{blended}");
 }
 
-/// As many as there may be, and nearly all of these, from wherever it is seen; the more there may be, the smaller sizes are.
+/// As many as there may be, and nearly all of these, from wherever it is seen, and of what planes leave of a surface that is seen from inside then; the more
+/// there may be, the smaller sizes are.
 #[test]
 fn a_budget_is_kept_and_filled() {
     let headless = shared();
@@ -90,8 +91,21 @@ fn a_budget_is_kept_and_filled() {
     let whole = hard.scene.ball().unwrap();
     let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
     let mut least: f64 = 1.0;
-    for round in 0..30 {
-        let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+    for round in 0..36 {
+        let mut any =
+            || DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+        let direction = any();
+        if round >= 30 {
+            let normal = any();
+            let plane =
+                normal.extend(0.3 * whole.radius * f64::from(round as u32 % 3) - normal.dot(whole.center));
+            let half = 0.5 * whole.radius;
+            let corners = [whole.center - half, whole.center + 2.0 * half].map(|corner| corner.to_array());
+            (hard.settings.clip_planes, hard.settings.clip_box) = match round % 4 {
+                3 => (ClipPlanes::default(), ClipBox(Some(corners))),
+                _ => (ClipPlanes([plane.to_array()].into()), ClipBox::default()),
+            };
+        }
         let distance = [3.0, 1.6, 6.0][round % 3] * whole.radius;
         let orthographic_height = (round % 5 == 4).then_some(1.5 * whole.radius);
         hard.camera = Camera {
