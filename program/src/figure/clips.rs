@@ -205,8 +205,9 @@ fn most_bent(splats: &Splats, eye: DVec3) -> Option<DVec3> {
         let (position, s, t) = (splats.positions[i], s[i].as_dvec3(), t[i].as_dvec3());
         let facing = s.cross(t).normalize().dot((eye - position).normalize());
         for curve in splats.clips.get(i).curves().into_iter().flatten() {
-            let [middle, chord] = middles(curve).map(|at| position + at.x * s + at.y * t);
-            let bent = facing * middle.distance(chord);
+            let [middle, start, end] = places(curve).map(|at| position + at.x * s + at.y * t);
+            // Along its chord a curve may lie anywhere, and be straight.
+            let bent = facing * (middle - start).cross((end - start).normalize_or_zero()).length();
             if bent > best.map_or(0.0, |best| best.0) {
                 best = Some((bent, middle));
             }
@@ -215,9 +216,9 @@ fn most_bent(splats: &Splats, eye: DVec3) -> Option<DVec3> {
     best.map(|best| best.1)
 }
 
-/// Of a curve and of its chord.
-fn middles(curve: &ClipCurve) -> [DVec2; 2] {
+/// The middle of a curve, and its ends.
+fn places(curve: &ClipCurve) -> [DVec2; 3] {
     let [start, end] = [curve.start_rad, curve.end_rad].map(|rad| DVec2::from_angle(rad.into()));
     let (chord, weight) = (0.5 * (start + end), f64::from(curve.weight));
-    [(chord + weight * curve.middle.as_dvec2()) / (1.0 + weight), chord]
+    [(chord + weight * curve.middle.as_dvec2()) / (1.0 + weight), start, end]
 }

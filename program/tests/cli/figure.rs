@@ -202,6 +202,20 @@ fn p9_and_p10_are_curves_with_the_papers_values() {
 }
 
 /// What sticks out of the mesh's outline, or is missing, of splats that nothing, lines and curves cut.
+/// The nearer, the more a line is off the curve: the edge that is shown is bent.
+#[test]
+fn i1_shows_an_edge_that_lines_miss() {
+    let panels = panels("i1", [120, 120], &[]);
+    assert_eq!(panels.len(), 9);
+    let differ = |row: usize| {
+        let [lines, curves] = [1, 2].map(|column| &panels[3 * row + column].values);
+        lines.iter().zip(curves).filter(|(a, b)| (*a - *b).abs() > 0.02).count()
+    };
+    let differ = [0, 1, 2].map(differ);
+    println!("pixels between lines and curves: {differ:?} of {}", 120 * 120);
+    assert!(differ[0] < differ[1] && differ[1] < differ[2] && differ[2] > 1000, "{differ:?}");
+}
+
 #[test]
 fn i9_curves_leave_the_outline_of_the_mesh() {
     let panels = panels("i9", [160, 160], &[]);
