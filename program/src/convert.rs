@@ -37,6 +37,11 @@ over which it bends by 30 degrees or more, and its border. Splats on both sides 
 where they are or vanish; a triangle that more than two curves cross becomes several splats. Triangles that are turned around against \
 their neighbors are turned back; an edge of more than two triangles is a ridge of each, at which its splats end.
 
+A splat has one color, the mean of the surface that it stands for. So where colors of vertices vary, triangles stay small, those of the file are \
+split where they are too large and N or E asks for more splats, and splats end where a color steps. A color that is off by d (linear light, root mean \
+square) over the area A that a splat stands for counts as a distance of d times the root of A, of which E allows as much as of others; a d below 0.001 \
+counts as none. Normals of the file are not kept: those of splats are of their planes, and ridges are where triangles bend.
+
 The file is a binary PLY: x y z nx ny nz radius, or su_x ... sv_z (the tangent vectors) for ellipses, and red green blue \
 alpha (sRGB) where the model has colors. Parts of ellipses are cut off by clip_a1 clip_a3 clip_u clip_v clip_w, the same with \
 clip2_, and clip_mode (0: either removes, 1: both must): a rational Bezier curve in the plane of the splat from angle a1 \
@@ -83,7 +88,8 @@ pub struct ConvertArguments {
 
     /// Simplify the mesh to splats, clipped where it has sharp edges, while no collapse of an edge is off by more than E in units of the file: the
     /// root mean square distance to the planes of the triangles at a vertex, the distance of a curve from its ridge, and how far an ellipse comes to
-    /// stand off the triangles beside its own, where those of the file don't
+    /// stand off the triangles beside its own, where those of the file don't; and how far the color of a splat is
+    /// off, times the root of the area that it stands for
     #[arg(long, value_name = "E", allow_hyphen_values = true, conflicts_with = "resample")]
     #[arg(value_parser = parse::number("a length above 0", f64::MIN_POSITIVE..=f64::MAX))]
     max_error: Option<f64>,

@@ -53,6 +53,9 @@ fn head([vertices, triangles]: [usize; 2], made: &SharpReport, size: f64, asked:
     if made.stands_off > made.error {
         head += &format!(", ellipses stand off it by up to {:.3e}{}", made.stands_off, seen(made.stands_off));
     }
+    if made.colors_off > 0.0 {
+        head += &format!(", colors off as a distance of up to {:.3e}", made.colors_off);
+    }
     if let Some(asked) = asked {
         head += &format!(", more splats than the {asked} asked for, because no other edge can be left out");
     }

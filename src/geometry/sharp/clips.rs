@@ -43,6 +43,9 @@ const NEAR: f64 = 1e-3;
 /// How often a triangle is cut in two.
 const MOST_CUTS: u32 = 8;
 
+/// How often, so that its ellipses end where the color steps.
+const MOST_CUTS_FOR_COLORS: u32 = 2;
+
 /// The splat of a triangle.
 pub(super) struct ClippedEllipse {
     pub center: DVec3,
@@ -53,6 +56,13 @@ pub(super) struct ClippedEllipse {
     pub crowded: bool,
     /// How far it stands off the surface.
     pub stands_off: f64,
+}
+
+impl ClippedEllipse {
+    /// A place in its plane, in radii.
+    pub fn flat(&self, place: DVec3) -> DVec3 {
+        Disk { center: self.center, s: self.s, t: self.t }.flat(place)
+    }
 }
 
 /// A ridge's piece in the plane of a splat, with the surface on its left.
@@ -93,7 +103,8 @@ pub(super) fn clipped_ellipses(
     let mut open = vec![(Part { p, curves: [0, 1, 2].map(curve) }, 0)];
     let mut made = Vec::new();
     while let Some((part, cuts)) = open.pop() {
-        let Some(one) = clipped_ellipse(model, triangle, part.p, clipping) else { continue };
+        let colors = cuts <= MOST_CUTS_FOR_COLORS;
+        let Some(one) = clipped_ellipse(model, triangle, part.p, clipping, colors) else { continue };
         if one.crowded && cuts < MOST_CUTS {
             open.extend(halves(&part, model.normals[triangle]).map(|half| (half, cuts + 1)));
         } else {
@@ -103,17 +114,18 @@ pub(super) fn clipped_ellipses(
     made
 }
 
-/// The ellipse of a part of a triangle; `None` of one without area.
+/// The ellipse of a part of a triangle; `None` of one without area. `colors`: whether it ends where the color steps.
 fn clipped_ellipse(
     model: &Model<'_>,
     triangle: usize,
     p: [DVec3; 3],
     clipping: Clipping,
+    colors: bool,
 ) -> Option<ClippedEllipse> {
     let (center, s, t) = ellipse(p)?;
     let disk = Disk { center, s, t };
     let flat = |p: DVec3| disk.flat(p);
-    let Reached { triangles, found, too_many } = find(model, triangle, &flat);
+    let Reached { triangles, found, too_many } = find(model, triangle, &flat, colors);
     if clipping == Clipping::None {
         let stands_off = disk.stands_off(model, p, &triangles, &Clip::None);
         return Some(ClippedEllipse { center, s, t, clip: Clip::None, crowded: false, stands_off });
@@ -143,7 +155,7 @@ struct Reached {
 }
 
 /// Walks from a triangle within an ellipse.
-fn find(model: &Model<'_>, triangle: usize, flat: &dyn Fn(DVec3) -> DVec3) -> Reached {
+fn find(model: &Model<'_>, triangle: usize, flat: &dyn Fn(DVec3) -> DVec3, colors: bool) -> Reached {
     let normal = model.normals[triangle];
     let (mut reached, mut next, mut found) = (vec![triangle], 0, Vec::new());
     while next < reached.len() {
@@ -163,7 +175,9 @@ fn find(model: &Model<'_>, triangle: usize, flat: &dyn Fn(DVec3) -> DVec3) -> Re
                 continue;
             }
             let beyond = model.edges.beyond(from, to);
-            let goes_on = beyond.filter(|beyond| model.normals[*beyond].dot(normal) >= COS_BENT);
+            let is_flat = |beyond: &usize| model.normals[*beyond].dot(normal) >= COS_BENT;
+            let goes_on =
+                beyond.filter(|beyond| is_flat(beyond) && !(colors && model.steps(triangle, *beyond)));
             if let Some(beyond) = goes_on {
                 if reached.len() < MOST_TRIANGLES && !reached.contains(&beyond) {
                     reached.push(beyond);

@@ -3,11 +3,11 @@
 //!
 //! **Which.** Vertices on no ridge may go to any neighbor, those within a ridge along it, corners nowhere. **At what price.** The mean squared
 //! distance of the new place to the planes of the vertex's triangles (`quadric`), and for a ridge the square of what the new piece's curve is
-//! off, too. **Feasible** is what keeps the topology (vertices that both ends have for neighbors are the third corners of the triangles between
+//! off, too; where the mesh has colors, a vertex comes later by what they lose (`colored`). **Feasible** is what keeps the topology (vertices that both ends have for neighbors are the third corners of the triangles between
 //! them), turns no triangle by more than 60°, leaves a curve to the ridge, and that curve within the ellipses of its triangles. Where an error is
 //! given, it also lets no ellipse stand off the surface by more (`standing`).
 //!
-//! **In passes.** Each vertex finds its cheapest collapse, at the same time as all others; from the cheapest on those are done that are feasible and
+//! **In passes.** Each vertex around which something changed finds its cheapest collapse, at the same time as all others; from the cheapest on those are done that are feasible and
 //! whose neighborhoods are untouched. So the result does not depend on threads, and no queue is kept.
 
 use std::collections::{BinaryHeap, HashMap};
@@ -17,7 +17,8 @@ use rayon::prelude::*;
 
 use super::{
     around::{Around, Marks},
-    choice::{Candidate, Later, NewPiece, Target, sort_cheapest},
+    choice::{Candidate, Later, Target, sort_cheapest},
+    colored::Colored,
     fit::{Fitted, fit},
     quadric::Quadric,
     ridges::{Kind, Ridges},
@@ -61,21 +62,27 @@ pub(super) struct State<'a> {
     pub(super) positions: &'a [DVec3],
     pub(super) ridges: &'a Ridges,
     pub triangles: Vec<[u32; 3]>,
+    pub colored: Option<Colored>,
     /// The largest price that was paid.
     paid: f64,
-    quadrics: Vec<Quadric>,
+    pub(super) quadrics: Vec<Quadric>,
     pub(super) links: Vec<Links>,
     /// Of chains between two corners.
     pub(super) between: HashMap<(u32, u32), u32>,
+    /// Those of the last pass.
+    candidates: Vec<Candidate>,
+    /// Vertices of triangles that it changed: others may go where they could before.
+    changed: Vec<bool>,
 }
 
 impl<'a> State<'a> {
-    /// A sound mesh as it is. `normals` are the triangles'.
+    /// A sound mesh as it is. `normals` are the triangles'; `colored`: where it has colors.
     pub fn new(
         positions: &'a [DVec3],
         triangles: Vec<[u32; 3]>,
         normals: &[DVec3],
         ridges: &'a Ridges,
+        colored: Option<Colored>,
     ) -> Self {
         let mut quadrics = vec![Quadric::default(); positions.len()];
         for (&[a, b, c], &normal) in triangles.iter().zip(normals) {
@@ -98,7 +105,19 @@ impl<'a> State<'a> {
             let (a, b) = (chain[0], chain[chain.len() - 1]);
             between.insert((a.min(b), a.max(b)), number as u32);
         }
-        Self { positions, ridges, triangles, paid: 0.0, quadrics, links, between }
+        let (candidates, changed) = (Vec::new(), vec![true; positions.len()]);
+        Self {
+            positions,
+            ridges,
+            triangles,
+            colored,
+            paid: 0.0,
+            quadrics,
+            links,
+            between,
+            candidates,
+            changed,
+        }
     }
 
     /// Collapses edges until the goal is reached, or nothing can be.
@@ -127,12 +146,13 @@ impl<'a> State<'a> {
     /// How many collapses were done.
     fn pass(&mut self, goal: Goal) -> usize {
         let around = Around::of(self.positions.len(), &self.triangles);
-        let most = goal.most_error * goal.most_error;
-        let mut candidates: Vec<Candidate> = (0..self.positions.len() as u32)
+        let mut candidates = std::mem::take(&mut self.candidates);
+        candidates.retain(|candidate| !self.changed[candidate.from as usize]);
+        let changed = (0..self.positions.len() as u32)
             .into_par_iter()
-            .filter(|vertex| !around.of_vertex(*vertex).is_empty())
-            .filter_map(|vertex| self.cheapest(vertex, &around, most))
-            .collect();
+            .filter(|vertex| self.changed[*vertex as usize] && !around.of_vertex(*vertex).is_empty())
+            .filter_map(|vertex| self.cheapest(vertex, &around, goal.most_error));
+        candidates.par_extend(changed);
         let part = if self.triangles.len() / 2 > goal.triangles { PART_A_PASS } else { PART_NEAR_THE_END };
         let most_done = 1 + (candidates.len() as f64 * part) as usize;
         let mut locked = vec![false; self.positions.len()];
@@ -166,10 +186,10 @@ impl<'a> State<'a> {
             }
             let target = match choice {
                 0 => Some(candidate.best),
-                _ => self.targets(candidate, &around, most).get(choice).copied(),
+                _ => self.targets(candidate, &around, goal.most_error).get(choice).copied(),
             };
             let Some(Target { price, to, .. }) = target else { continue };
-            if most.is_finite() && self.changes_beside(from, &around, &locked) {
+            if goal.most_error.is_finite() && self.changes_beside(from, &around, &locked) {
                 continue;
             }
             let piece = candidate.piece.as_deref();
@@ -178,7 +198,7 @@ impl<'a> State<'a> {
                 && self.is_feasible(from, to, &around, &mut marks, curve, goal.most_error);
             if !is_feasible {
                 let choice = choice + 1;
-                let next = self.targets(candidate, &around, most).get(choice).copied();
+                let next = self.targets(candidate, &around, goal.most_error).get(choice).copied();
                 later.extend(next.map(|next| Later { rank: next.rank, candidate: number, choice }));
                 continue;
             }
@@ -187,6 +207,10 @@ impl<'a> State<'a> {
                 left -= usize::from(corners.contains(&to));
                 corners.into_iter().for_each(|vertex| locked[vertex as usize] = true);
             }
+            let fan = self.colored.is_some().then(|| self.fan(from, piece, &around));
+            if let Some((colored, fan)) = self.colored.as_mut().zip(fan) {
+                colored.collapse(self.positions, &fan, to);
+            }
             became[from as usize] = to;
             let moved = self.quadrics[from as usize];
             self.quadrics[to as usize].add(&moved);
@@ -194,7 +218,12 @@ impl<'a> State<'a> {
             (done, self.paid) = (done + 1, self.paid.max(price));
         }
         self.triangles.par_iter_mut().for_each(|triangle| *triangle = triangle.map(|i| became[i as usize]));
-        self.triangles.retain(|[a, b, c]| a != b && b != c && c != a);
+        let is_left = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+        if let Some(colored) = &mut self.colored {
+            colored.keep(&self.triangles.iter().map(is_left).collect::<Vec<_>>());
+        }
+        self.triangles.retain(is_left);
+        (self.candidates, self.changed) = (candidates, locked);
         done
     }
 
@@ -205,78 +234,6 @@ impl<'a> State<'a> {
         let (last, next) = (links.last[place as usize], links.next[place as usize]);
         (links.next[last as usize], links.last[next as usize]) = (next, last);
         links.fitted[last as usize] = fitted;
-    }
-
-    /// The best that a vertex may hope for: what is feasible is asked of few.
-    fn cheapest(&self, from: u32, around: &Around, most: f64) -> Option<Candidate> {
-        let piece = match self.ridges.kinds[from as usize] {
-            Kind::Corner => return None,
-            Kind::Smooth => None,
-            Kind::Ridge { chain, place } => {
-                let (vertices, links) = (&self.ridges.chains[chain as usize], &self.links[chain as usize]);
-                let (last, next) = (links.last[place as usize], links.next[place as usize]);
-                let ends = [vertices[last as usize], vertices[next as usize]];
-                let own = &self.quadrics[from as usize];
-                if ends.into_iter().all(|to| own.mean_square(self.place(to)) > most) {
-                    return None;
-                }
-                let points: Vec<DVec3> =
-                    vertices[last as usize..=next as usize].iter().map(|i| self.place(*i)).collect();
-                Some(Box::new(NewPiece { ends, fitted: fit(&points)? }))
-            }
-        };
-        let mut best: Option<Target> = None;
-        self.each_target(from, piece.as_deref(), around, &mut |target| {
-            if target.price <= most && best.as_ref().is_none_or(|best| target.comes_before(best)) {
-                best = Some(target);
-            }
-        });
-        best.map(|best| Candidate { from, best, piece })
-    }
-
-    /// Where a vertex may go, the best first.
-    fn targets(&self, candidate: &Candidate, around: &Around, most: f64) -> Vec<Target> {
-        let mut targets = Vec::new();
-        self.each_target(candidate.from, candidate.piece.as_deref(), around, &mut |target| {
-            if target.price <= most {
-                targets.push(target);
-            }
-        });
-        targets.sort_unstable_by(|a, b| a.rank.total_cmp(&b.rank).then(a.to.cmp(&b.to)));
-        targets
-    }
-
-    /// All neighbors to which a vertex may go.
-    fn each_target(
-        &self,
-        from: u32,
-        piece: Option<&NewPiece>,
-        around: &Around,
-        then: &mut dyn FnMut(Target),
-    ) {
-        let own = &self.quadrics[from as usize];
-        let curve = piece.map_or(0.0, |piece| piece.fitted.most * piece.fitted.most);
-        let mut give = |to: u32| {
-            let price = own.mean_square(self.place(to)) + curve;
-            let rank = price + 1e-6 * self.place(from).distance_squared(self.place(to));
-            then(Target { rank, price, to });
-        };
-        match piece {
-            Some(piece) => piece.ends.into_iter().for_each(give),
-            None => {
-                // On no ridge, so at no border: each neighbor comes next after it in one of its triangles.
-                for triangle in around.of_vertex(from) {
-                    let [a, b, c] = self.triangles[*triangle as usize];
-                    give(if a == from {
-                        b
-                    } else if b == from {
-                        c
-                    } else {
-                        a
-                    });
-                }
-            }
-        }
     }
 
     /// The pieces of the ridges between the vertices that are left.

@@ -17,7 +17,7 @@ use crate::{
         topology::signed_volume,
     },
     notes::{Deed, Note},
-    scene::{Colors, Mesh},
+    scene::Mesh,
 };
 
 /// The number of no triangle.
@@ -88,6 +88,8 @@ pub(super) struct Sound {
     pub repairs: Repairs,
     /// See [`Edges::closed`].
     pub closed: bool,
+    /// What each vertex of the input has become.
+    pub first: Vec<u32>,
 }
 
 impl Sound {
@@ -98,7 +100,8 @@ impl Sound {
     /// [`crate::error::ErrorKind::Input`] for a mesh without any triangle.
     pub fn of(mesh: &Mesh) -> Result<Self> {
         let (mut mesh, mut repairs) = (mesh.clone(), Repairs::default());
-        repairs.welded = weld(&mut mesh);
+        let first;
+        (repairs.welded, first) = weld(&mut mesh);
         repairs.degenerate = slivers::leave_out(&mut mesh);
         repairs.repeated = drop_repeated(&mut mesh.triangles);
         if mesh.triangles.is_empty() {
@@ -116,12 +119,12 @@ impl Sound {
             mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
             all.iter_mut().for_each(|edge| (edge.left, edge.right) = (edge.right, edge.left));
         }
-        Ok(Self { mesh, edges: all, repairs, closed })
+        Ok(Self { mesh, edges: all, repairs, closed, first })
     }
 }
 
-/// Makes triangles name the first of the vertices at a place; how many others there were that any named.
-fn weld(mesh: &mut Mesh) -> usize {
+/// Makes triangles name the first of the vertices at a place; how many others there were that any named, and which that is of each.
+fn weld(mesh: &mut Mesh) -> (usize, Vec<u32>) {
     let bits = |p: DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
     let mut by_place: Vec<([u64; 3], u32)> =
         mesh.positions.par_iter().enumerate().map(|(i, p)| (bits(*p), i as u32)).collect();
@@ -137,7 +140,7 @@ fn weld(mesh: &mut Mesh) -> usize {
             *vertex = *to;
         }
     }
-    used.iter().filter(|used| **used).count()
+    (used.iter().filter(|used| **used).count(), first)
 }
 
 /// The edges of triangles.
@@ -184,12 +187,6 @@ impl EdgeIndex {
         let triangle = if from < to { edge.right } else { edge.left };
         (triangle != NONE).then_some(triangle as usize)
     }
-}
-
-/// The color of a triangle: the mean of its corners', or the one of the mesh.
-pub(super) fn color(colors: &Colors, triangle: [u32; 3]) -> [f32; 4] {
-    let corners = triangle.map(|vertex| colors.get(vertex as usize).unwrap_or_default());
-    std::array::from_fn(|channel| corners.iter().map(|color| color[channel]).sum::<f32>() / 3.0)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod around;
 mod choice;
 mod clips;
 mod collapse;
+mod colored;
 mod conic;
 mod edges;
 mod ellipse;
@@ -16,6 +17,8 @@ mod fit;
 mod halves;
 mod model;
 mod orientation;
+mod paint;
+mod prices;
 mod quadric;
 mod ridges;
 mod rim;
@@ -23,8 +26,9 @@ mod slivers;
 mod standing;
 #[cfg(test)]
 mod tests;
+mod tint;
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
 pub use edges::Repairs;
@@ -36,9 +40,12 @@ use crate::{
 };
 use clips::{ClippedEllipse, clipped_ellipses};
 use collapse::{Goal, Piece, State};
+use colored::Colored;
 use edges::{EdgeIndex, Sound};
 use model::Model;
+use paint::Paint;
 use ridges::Ridges;
+use tint::Tint;
 
 /// What cuts splats at ridges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,7 +67,8 @@ pub struct SharpOptions {
     /// So many splats at the most, where the mesh can be simplified so far; `None`: one for each triangle, or as few as `max_error` allows.
     pub splats: Option<u64>,
     /// The largest error of a collapse, world units: root mean square distance to the planes that meet at the vertex, and largest distance of
-    /// a curve from its ridge. Nor does an ellipse come to stand off the triangles beside its own by more, if those before did not. `None`: any.
+    /// a curve from its ridge. Nor does an ellipse come to stand off the triangles beside its own by more, if those before did not. A color that is off by d (linear, root mean square)
+    /// over the area A that a splat stands for counts as d √A, and a d below a thousandth as none. `None`: any.
     pub max_error: Option<f64>,
     /// The least angle between the normals of two triangles at a ridge; radians.
     pub crease_rad: f64,
@@ -94,6 +102,8 @@ pub struct SharpReport {
     pub error: f64,
     /// The largest distance of what is left of an ellipse from the simplified mesh, over edges that are no ridge.
     pub stands_off: f64,
+    /// The most that the color of a splat is off the surface's: the root of the integral of the squared difference over what it stands for, a length.
+    pub colors_off: f64,
     /// Triangles pass every edge as often in one direction as in the other: a closed surface, seen from outside.
     pub closed: bool,
 }
@@ -116,11 +126,6 @@ pub fn sharp_splats(
     }
     const TASK: &str = "find ridges";
     progress.step(TASK, 0, 1);
-    let Sound { mesh, edges, repairs, closed } = Sound::of(mesh)?;
-    let normals = normals_of(&mesh);
-    let ridges = Ridges::of(&mesh, &edges, &normals, options.crease_rad);
-    progress.step(TASK, 1, 1);
-    drop(edges);
     let goal = Goal {
         triangles: match (options.splats, options.max_error) {
             (Some(splats), _) => usize::try_from(splats).unwrap_or(usize::MAX),
@@ -129,17 +134,23 @@ pub fn sharp_splats(
         },
         most_error: options.max_error.unwrap_or(f64::INFINITY),
     };
+    let (Sound { mesh, edges, repairs, closed, .. }, paint) = prepared(mesh, options)?;
+    let normals = normals_of(&mesh);
+    let ridges = Ridges::of(&mesh, &edges, &normals, options.crease_rad);
+    progress.step(TASK, 1, 1);
+    drop(edges);
     // Small numbers lose less: quadrics are of products.
     let origin = mesh.bounds().map_or(DVec3::ZERO, |bounds| bounds.center());
     let positions: Vec<DVec3> = mesh.positions.iter().map(|p| *p - origin).collect();
-    let mut state = State::new(&positions, mesh.triangles, &normals, &ridges);
+    let colored = paint.map(|paint| Colored::new(&positions, &mesh.triangles, &paint));
+    let mut state = State::new(&positions, mesh.triangles, &normals, &ridges, colored);
     drop(normals);
     let mut report = SharpReport { repairs, ridges: ridges.chains.len(), closed, ..SharpReport::default() };
     let mut aim = goal.triangles;
     loop {
         state.collapse(Goal { triangles: aim, ..goal }, progress);
         let pieces = state.pieces();
-        let model = model(&positions, &state.triangles, &pieces, &ridges.chains);
+        let model = model(&state, &pieces);
         let made = ellipses(&model, options.clipping, progress);
         let stands_off = made.iter().flatten().map(|one| one.stands_off).fold(0.0, f64::max);
         report = SharpReport { pieces: pieces.len(), error: state.error(), stands_off, ..report };
@@ -147,30 +158,48 @@ pub fn sharp_splats(
         // Triangles that became several splats: so many fewer triangles, if there can be fewer.
         let over = count.saturating_sub(goal.triangles);
         if over == 0 || state.triangles.len() > aim || aim <= over {
-            return Ok(splats(&state.triangles, made, &mesh.colors, origin, report));
+            if let Some(colored) = &mut state.colored {
+                colored.fill(positions.len(), &state.triangles);
+            }
+            return Ok(splats(&state, made, &mesh.colors, origin, report));
         }
         aim -= over;
     }
 }
 
-fn model<'a>(
-    positions: &'a [DVec3],
-    triangles: &'a [[u32; 3]],
-    pieces: &'a [Piece],
-    chains: &'a [Vec<u32>],
-) -> Model<'a> {
+/// The mesh repaired, and its colors; split where these need more splats than there are triangles.
+fn prepared(file: &Mesh, options: &SharpOptions) -> Result<(Sound, Option<Paint>)> {
+    let mut sound = Sound::of(file)?;
+    let mut paint = Paint::of(file, &sound.mesh, &sound.first);
+    sound.first = Vec::new();
+    if let Some(paint) = &mut paint {
+        let (count, most) = match (options.splats, options.max_error) {
+            (Some(count), most) => (usize::try_from(count).unwrap_or(usize::MAX), most.unwrap_or(0.0)),
+            (None, Some(most)) => (usize::MAX, most),
+            (None, None) => (0, 0.0),
+        };
+        if paint.split(&mut sound.mesh, count, most) {
+            sound.edges = edges::edges(&sound.mesh.triangles).all;
+        }
+    }
+    Ok((sound, paint))
+}
+
+fn model<'a>(state: &'a State<'_>, pieces: &'a [Piece]) -> Model<'a> {
     let between = pieces.iter().enumerate().map(|(i, piece)| {
         let [a, b] = piece.ends;
         ((a.min(b), a.max(b)), i)
     });
+    let (positions, triangles) = (state.positions, state.triangles.as_slice());
     Model {
         positions,
         triangles,
         normals: triangles.par_iter().map(|t| normal(positions, *t)).collect(),
+        tints: state.colored.as_ref().map(|colored| colored.tints.as_slice()),
         edges: EdgeIndex::of(&edges::edges(triangles)),
         between: between.collect(),
         pieces,
-        chains,
+        chains: &state.ridges.chains,
     }
 }
 
@@ -186,7 +215,7 @@ fn ellipses(model: &Model<'_>, clipping: Clipping, progress: &dyn Progress) -> V
 }
 
 fn splats(
-    triangles: &[[u32; 3]],
+    state: &State<'_>,
     made: Vec<Vec<ClippedEllipse>>,
     colors: &Colors,
     origin: DVec3,
@@ -194,17 +223,21 @@ fn splats(
 ) -> (Splats, SharpReport) {
     let (mut s, mut t, mut positions, mut clips, mut each) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for (made, triangle) in made.into_iter().zip(triangles) {
+    for (triangle, made) in made.into_iter().enumerate() {
         report.cut_triangles += usize::from(made.len() > 1);
+        if let Some(colored) = &state.colored {
+            let tints = colored.of_splats(triangle, &made);
+            let off = tints.iter().map(Tint::off).fold(0.0, f64::max).sqrt();
+            report.colors_off = report.colors_off.max(off);
+            let mean = |tint: &Tint| tint.mean().or(colored.tints[triangle].mean()).unwrap_or(DVec4::NAN);
+            each.extend(tints.iter().map(|tint| mean(tint).as_vec4().to_array()));
+        }
         for one in made {
             positions.push(one.center + origin);
             s.push(one.s.as_vec3());
             t.push(one.t.as_vec3());
             clips.push(one.clip);
             report.crowded += usize::from(one.crowded);
-            if matches!(colors, Colors::Each(_)) {
-                each.push(edges::color(colors, *triangle));
-            }
         }
     }
     let colors = match colors {

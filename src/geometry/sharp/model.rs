@@ -4,13 +4,15 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::{collapse::Piece, conic::Conic, edges::EdgeIndex};
+use super::{collapse::Piece, conic::Conic, edges::EdgeIndex, tint::Tint};
 
 pub(super) struct Model<'a> {
     pub positions: &'a [DVec3],
     pub triangles: &'a [[u32; 3]],
     /// Unit, of the triangles.
     pub normals: Vec<DVec3>,
+    /// Of the triangles, where the mesh has colors.
+    pub tints: Option<&'a [Tint]>,
     pub edges: EdgeIndex,
     pub pieces: &'a [Piece],
     /// The vertices of the input's ridges.
@@ -22,6 +24,11 @@ impl Model<'_> {
     /// The piece of a ridge between two vertices.
     pub fn piece(&self, a: u32, b: u32) -> Option<&Piece> {
         self.between.get(&(a.min(b), a.max(b))).map(|i| &self.pieces[*i])
+    }
+
+    /// Whether the color steps from a triangle to another one.
+    pub fn steps(&self, from: usize, to: usize) -> bool {
+        self.tints.is_some_and(|tints| tints[from].steps_to(&tints[to]))
     }
 }
 

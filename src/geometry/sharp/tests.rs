@@ -1,5 +1,6 @@
 //! Whole conversions.
 
+mod colors;
 mod cut_apart;
 mod distances;
 mod gaps;

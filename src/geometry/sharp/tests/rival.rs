@@ -29,7 +29,7 @@ fn ours(mesh: &Mesh, count: usize) -> Vec<[u32; 3]> {
     let normals = normals_of(mesh);
     let Sound { edges, .. } = Sound::of(mesh).unwrap();
     let ridges = Ridges::of(mesh, &edges, &normals, 30_f64.to_radians());
-    let mut state = State::new(&mesh.positions, mesh.triangles.clone(), &normals, &ridges);
+    let mut state = State::new(&mesh.positions, mesh.triangles.clone(), &normals, &ridges, None);
     state.collapse(Goal { triangles: count, most_error: f64::INFINITY }, &());
     state.triangles
 }
