@@ -152,6 +152,16 @@ fn a_part_becomes_few_splats_with_sharp_edges() {
     assert!(again.starts_with("a.ply: 12 ellipses, closed -> b.ply"), "{again}");
     assert_eq!(fs::read(folder.path("a.ply")).unwrap(), fs::read(folder.path("b.ply")).unwrap());
 
+    // Where colors vary there are more splats than triangles; what they are off by is told.
+    folder.write("square.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 0 1\nv 1 1 0 0 0 1\nv 0 1 0 1 0 0\nf 1 2 3 4\n");
+    let few = convert(&folder, &["square.obj", "few.ply", "--splats", "2"]);
+    assert!(few.contains("colors off as a distance of up to 2.357e-1 -> few.ply: 2 ellipses"), "{few}");
+    let many = convert(&folder, &["square.obj", "many.ply", "--splats", "100"]);
+    assert!(
+        many.contains("colors off as a distance of") && many.contains("many.ply: 100 ellipses"),
+        "{many}"
+    );
+
     // A third triangle at an edge ends there. Its sides are three ridges: one splat has two clips, so that it is several.
     folder.write("fin.obj", &(box_.to_owned() + "v 5 5 5\nf 1 2 9\n"));
     let said = convert(&folder, &["fin.obj", "fin.ply", "--splats", "2500", "--strict"]);

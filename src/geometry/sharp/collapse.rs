@@ -158,11 +158,11 @@ impl<'a> State<'a> {
         let mut locked = vec![false; self.positions.len()];
         let mut became: Vec<u32> = (0..self.positions.len() as u32).collect();
         let mut marks = Marks::new(self.positions.len());
-        let (mut done, mut left) = (0, self.triangles.len());
+        let (mut done, mut waiting, mut left) = (0, 0, self.triangles.len());
         // Second choices of those before, by their own rank.
         let mut later: BinaryHeap<Later> = BinaryHeap::new();
         let (mut next, mut sorted) = (0, 0);
-        while left > goal.triangles && done < most_done {
+        while left > goal.triangles && done + waiting < most_done {
             // Few of all are looked at: no more than that are sorted.
             if next == sorted {
                 sorted += sort_cheapest(&mut candidates[sorted..], 2 * most_done);
@@ -190,6 +190,8 @@ impl<'a> State<'a> {
             };
             let Some(Target { price, to, .. }) = target else { continue };
             if goal.most_error.is_finite() && self.changes_beside(from, &around, &locked) {
+                // To a count, it is its turn in the next pass, before those that cost more.
+                waiting += usize::from(goal.triangles > 0);
                 continue;
             }
             let piece = candidate.piece.as_deref();

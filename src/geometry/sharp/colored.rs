@@ -8,7 +8,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{around::Around, clips::ClippedEllipse, paint::Paint, tint::Tint};
+use super::{around::Around, paint::Paint, tint::Tint};
 
 /// The mean squared difference of colors that are the same.
 const SAME: f64 = 1e-9;
@@ -142,16 +142,15 @@ impl Colored {
         &self.order[self.starts[triangle] as usize..self.starts[triangle + 1] as usize]
     }
 
-    /// The colors for which splats of a triangle stand: of each place the one whose middle it is nearest to, in radii.
-    pub fn of_splats(&self, triangle: usize, splats: &[ClippedEllipse]) -> Vec<Tint> {
-        if splats.len() == 1 {
+    /// The colors for which so many splats of a triangle stand: each place of the surface is that of the splat from which it is least `away`.
+    pub fn of_splats(&self, triangle: usize, splats: usize, away: impl Fn(usize, DVec3) -> f64) -> Vec<Tint> {
+        if splats == 1 {
             return vec![self.tints[triangle]];
         }
-        let mut tints = vec![Tint::default(); splats.len()];
+        let mut tints = vec![Tint::default(); splats];
         for sample in self.of_triangle(triangle as u32).iter().map(|i| &self.samples[*i as usize]) {
-            let away = |i: &usize| splats[*i].flat(sample.place).length_squared();
-            let nearest = (0..splats.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
-            nearest.into_iter().for_each(|i| tints[i].add(&sample.tint));
+            let order = |a: &usize, b: &usize| away(*a, sample.place).total_cmp(&away(*b, sample.place));
+            (0..splats).min_by(order).into_iter().for_each(|i| tints[i].add(&sample.tint));
         }
         tints
     }

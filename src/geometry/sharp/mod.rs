@@ -124,6 +124,14 @@ pub fn sharp_splats(
     if let Some(error) = options.max_error.filter(|error| !(*error > 0.0 && error.is_finite())) {
         return Err(Error::option("--max-error", format!("{error}; expected a length above 0")));
     }
+    if let (Some(_), Some(most)) = (options.splats, options.max_error) {
+        // A bound that is kept without it changes nothing.
+        let made = sharp_splats(mesh, &SharpOptions { max_error: None, ..*options }, progress)?;
+        let SharpReport { error, stands_off, colors_off, .. } = made.1;
+        if error.max(stands_off).max(colors_off) <= most {
+            return Ok(made);
+        }
+    }
     const TASK: &str = "find ridges";
     progress.step(TASK, 0, 1);
     let goal = Goal {
@@ -226,7 +234,8 @@ fn splats(
     for (triangle, made) in made.into_iter().enumerate() {
         report.cut_triangles += usize::from(made.len() > 1);
         if let Some(colored) = &state.colored {
-            let tints = colored.of_splats(triangle, &made);
+            let away = |i: usize, place| made[i].flat(place).length_squared();
+            let tints = colored.of_splats(triangle, made.len(), away);
             let off = tints.iter().map(Tint::off).fold(0.0, f64::max).sqrt();
             report.colors_off = report.colors_off.max(off);
             let mean = |tint: &Tint| tint.mean().or(colored.tints[triangle].mean()).unwrap_or(DVec4::NAN);

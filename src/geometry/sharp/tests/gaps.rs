@@ -29,10 +29,10 @@ fn gaps(mesh: &Mesh, count: usize, clipping: Clipping) -> Gaps {
     let Sound { mesh, edges, .. } = Sound::of(mesh).unwrap();
     let normals = normals_of(&mesh);
     let ridges = Ridges::of(&mesh, &edges, &normals, 30_f64.to_radians());
-    let mut state = State::new(&mesh.positions, mesh.triangles.clone(), &normals, &ridges);
+    let mut state = State::new(&mesh.positions, mesh.triangles.clone(), &normals, &ridges, None);
     state.collapse(Goal { triangles: count, most_error: f64::INFINITY }, &());
     let pieces = state.pieces();
-    let model = model(&mesh.positions, &state.triangles, &pieces, &ridges.chains);
+    let model = model(&state, &pieces);
     let mut gaps = Gaps { mean: 0.0, most: 0.0, off_projection: 0.0, places: 0 };
     for piece in &pieces {
         let [a, b] = piece.ends;
