@@ -35,9 +35,8 @@ pub struct PictureArguments {
     #[arg(long, value_name = "DIR")]
     pub dump: Option<PathBuf>,
 
-    /// Draw only this part of the picture, in pixels from its top left corner: it may be larger than the device can draw. The pixels are
-    /// those of the whole picture where points draw both, or tiles with --cull setup; else but for rounding, by which a splat or a
-    /// triangle may cover a pixel more or less at its edge
+    /// Draw only this part of the picture, in pixels from its top left corner: it may be larger than the device can draw. The pixels are those of the whole
+    /// picture where points draw both, or tiles with --cull setup; else but for rounding, by which a splat or triangle may cover a pixel more or less at its edge
     #[arg(long, value_name = "X,Y,W,H", value_parser = Crop::parse, allow_hyphen_values = true)]
     pub crop: Option<Crop>,
 
@@ -145,10 +144,7 @@ impl PictureArguments {
     ) -> Result<()> {
         let is_asked = self.settings.says("edges") && settings.edges == Edges::Coverage;
         if is_asked && settings.samples.0 == 1 && !renderer.covers_in_part(scene, camera, settings)? {
-            console::say(
-                "--edges coverage has no effect: it is for splats by tiles, with a filter that widens them, that are shaded by their normals and not as large as \
-                 the picture; --samples 8 does the same for all",
-            );
+            console::say(NO_EDGES);
         }
         Ok(())
     }
@@ -194,6 +190,8 @@ pub fn smoothed(
     let several = Settings { samples: SMOOTH, edges, ..settings.clone() };
     if renderer.check_settings(&several).is_ok() { several } else { settings }
 }
+
+const NO_EDGES: &str = "--edges coverage has no effect: it is for splats by tiles, with a filter that widens them, shaded by their normals and smaller than the picture; --samples 8 does the same for all";
 
 /// What is drawn of a picture.
 pub struct Drawn {

@@ -158,13 +158,12 @@ pub(crate) fn unused_levels(
     settings: &Settings,
 ) -> Option<String> {
     let draws_none = |part: &SurfacePlan<'_>, transparent: bool| {
-        let stands = |chunk: &Chunk| chunk.stands_for_others() && chunk.transparent == transparent;
-        scene.chunks.iter().any(stands) && part.splats.iter().all(|draw| draw.levels.is_none())
+        let own = |chunk: &Chunk| chunk.stands_for_others() && chunk.transparent == transparent;
+        scene.chunks.iter().any(own) && part.splats.iter().all(|draw| draw.levels.is_none())
     };
     let unused = draws_none(&frame.opaque, false) || draws_none(&frame.transparent, true);
-    (unused && settings.tau_px() > 0.0).then(|| {
-        "levels of detail (--lod, --budget) are for --rasterizer auto and compute, and for points; the scene itself is drawn".to_owned()
-    })
+    let why = "levels of detail (--lod, --budget) are for --rasterizer auto and compute, and for points; the scene itself is drawn";
+    (unused && settings.tau_px() > 0.0).then(|| why.to_owned())
 }
 
 /// That sums of 16 bits were asked for and are made nowhere, in a sentence.
