@@ -66,9 +66,9 @@ pub enum Stage<'t> {
         sums: [vk::Buffer; 2],
         /// Their transparent layers, as `Compose` has left them, where there are any.
         layers: Option<vk::Buffer>,
-        /// As for [`Renderer::record`].
+        /// As for [`crate::renderer::Renderer::record`].
         target: &'t Target,
-        /// As for [`Renderer::record`], without samples.
+        /// As for [`crate::renderer::Renderer::record`], without samples.
         readbacks: Readbacks,
     },
 }
