@@ -82,7 +82,7 @@ pub struct ConvertArguments {
     #[arg(value_parser = parse::whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
     seed: u64,
 
-    /// Simplify the mesh to that many splats, clipped where it has sharp edges; fewer where --max-error allows, more where no edge can collapse
+    /// Simplify the mesh to that many splats, clipped where it has sharp edges; more where no edge can collapse, or --max-error lets none
     #[arg(long, value_name = "N", value_parser = parse::splats, allow_hyphen_values = true, conflicts_with = "resample")]
     splats: Option<u64>,
 
